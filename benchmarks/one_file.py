@@ -1,4 +1,4 @@
-"""Seconds of motion a CPU second on one core: the C file, `verlet`, MuJoCo's flex of the same grid.
+"""Seconds of motion a CPU second on one core: the C file, `verlet`, MuJoCo's flex of an equal grid.
 
     OMP_NUM_THREADS=1 python benchmarks/one_file.py [9] [--seconds 0.5]
 
@@ -54,7 +54,7 @@ def spent(clock: Callable[[], float], work: Callable[[], object]) -> float:
 
 
 def mujoco_steps(grid: int, duration: float) -> Callable[[], None] | None:
-    """Return what steps MuJoCo's flex, None without MuJoCo."""
+    """Return a function that steps MuJoCo's flex, None without MuJoCo."""
     try:
         import mujoco
     except ImportError:

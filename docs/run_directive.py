@@ -24,6 +24,7 @@ from sphinx.util.docutils import SphinxDirective
 
 COLUMNS = 82
 FOLDERS: dict[str, Path] = {}  # of a page, in this build: a later one starts with empty folders
+BUSY = "times are not reliable"  # of the machine that builds the site
 ROWS = 45  # of one command's output; what is longer is cut, and says so
 
 
@@ -43,6 +44,7 @@ def printed(command: str, folder: Path) -> str:
     if done.returncode:
         raise ExtensionError(f"{command}: status {done.returncode}\n{done.stderr}")
     lines = done.stdout.strip("\n").splitlines()
+    lines = [line for line in lines if not line.startswith(BUSY)]
     cut = [f"… ({len(lines) - ROWS} more lines)"] if len(lines) > ROWS else []
     return "\n".join([line.rstrip() for line in lines[:ROWS]] + cut)
 

@@ -10,6 +10,7 @@ import json
 import shutil
 import subprocess
 import sys
+import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -22,6 +23,9 @@ SCENES = ("two-edges-clamped", "one-edge-clamped")
 THICKNESSES = (0.002, 0.003, 0.004, 0.006)  # m
 LOADS = (0.25, 0.5, 1.0, 2.0, 4.0)  # g/E over the scene's
 POINTS = 5  # along a side, that can be dragged
+CALLED = ("sheet_reset", "sheet_step", "sheet_set_force", "sheet_probe", "SHEET", "THREE", "SHEET_REST")
+COMPILER = [sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-freestanding", "-O3", "-nostdlib", "-s"]
+COMPILER += ["-Dsqrt=__builtin_sqrt", "-Wl,--no-entry", *(f"-Wl,--export={name}" for name in CALLED)]
 
 
 def scene_of(name: str, thickness: float) -> Scene:
@@ -50,7 +54,7 @@ def answers() -> dict[str, list[float]]:
 
 
 def build(folder: Path) -> str:
-    """Write the page with its programs to a folder; return how many, or why there are none."""
+    """Write the page with its programs to a folder; return their number, or the reason for none."""
     from comparisons.codes.onefile import program
     from comparisons.models.resolve import resolve
     from comparisons.models.spec import Lattice
@@ -64,25 +68,12 @@ def build(folder: Path) -> str:
         for thickness in THICKNESSES:
             scene = scene_of(name, thickness)
             springs = resolve(scene, Lattice(9), "springs", own=False).calibrated([scene])
-            texts = program(scene, springs, steps=20).texts | {
-                "glue.c": (HERE / "glue.c").read_text(encoding="utf-8")
-            }
-            for file in ("sheet.h", "sheet.c", "glue.c"):
-                (folder / file).write_text(texts[file], encoding="utf-8")
-            out = folder / f"{name}-{1e3 * thickness:g}.wasm"
-            flags = (
-                "-target",
-                "wasm32-freestanding",
-                "-O3",
-                "-Dsqrt=__builtin_sqrt",
-                "-nostdlib",
-                "-Wl,--no-entry",
-                "-s",
-            )
-            command = [sys.executable, "-m", "ziglang", "cc", *flags, "sheet.c", "glue.c", "-o", out.name]
-            subprocess.run(command, cwd=folder, check=True)
-            for file in ("sheet.h", "sheet.c", "glue.c"):
-                (folder / file).unlink()
+            with tempfile.TemporaryDirectory() as place:
+                texts = program(scene, springs, steps=20).texts
+                for file, more in (("sheet.h", ""), ("sheet.c", "sheet SHEET; double THREE[3];\n")):
+                    (Path(place) / file).write_text(texts[file] + more, encoding="utf-8")
+                out = (folder / f"{name}-{1e3 * thickness:g}.wasm").resolve()
+                subprocess.run([*COMPILER, "sheet.c", "-o", str(out)], cwd=place, check=True)
     return f"{len(SCENES) * len(THICKNESSES)} lattices"
 
 

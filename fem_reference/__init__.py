@@ -1,7 +1,6 @@
-"""Finite-element references of the sheet on scikit-fem, which the lumped model is held against.
+"""Finite-element references of a sheet on scikit-fem, to which the lumped model is compared.
 
-`solve(scene, model="shell", elements=16)` answers with a `Solution`; models are loaded when they are first
-requested.
+`solve(scene, model="shell", elements=16)` answers with a `Solution`; models are loaded when first requested.
 """
 
 from __future__ import annotations
@@ -35,13 +34,41 @@ def solve(
     progress: Callable[[Iteration], None] | None = None,
     **requested: Any,
 ) -> Solution:
-    """The static answer of a reference model; `elements` along the shorter side, or a pair (nx, ny).
+    """Return the static equilibrium of a scene by a reference model.
 
-    near: of the shell, the displacement (n, 3) [m] of what lies at (n, 3) [m] in the flat sheet, in an
-    equilibrium to be sought from first. progress: called once an iteration. The law of strain is the
-    material's own, where it has one, unless `law` is requested.
-    Raises BadInput for an unknown model or option, scenes.SceneError for a scene that no support holds.
+    Parameters
+    ----------
+    scene : Scene, str or path
+        A scene, the name of one in the catalogue, or a scene file.
+    model : {"plate", "shell", "solid"}
+        The reference model.
+    near : callable, optional
+        For the shell: a function from points (n, 3) [m] of the flat sheet to their displacement (n, 3) [m] in
+        an estimate of the shape. The equilibrium is sought from there first.
+    progress : callable, optional
+        Called with an `Iteration` after each iteration.
+    **requested : int, tuple, float, bool or str
+        `elements`: number along the shorter side, or a pair (nx, ny); 16 by default. Other names: see
+        `options`. The law of strain is the material's own, where it has one, unless `law` is given.
 
+    Returns
+    -------
+    Solution
+        Displacements [m], reactions [N], energies [J], status and history.
+
+    Raises
+    ------
+    BadInput
+        For an unknown model or option.
+    scenes.SceneError
+        For a scene whose supports leave a rigid motion free.
+
+    Notes
+    -----
+    The shell's path to the full load begins at the equilibrium of a coarser mesh (`shell.coarse_start`).
+
+    Examples
+    --------
     >>> import fem_reference
     >>> solution = fem_reference.solve("two-edges-clamped", "shell", elements=8)
     >>> solution.status, solution.displacement([[0.188, 0.188]]).round(4)
@@ -60,27 +87,67 @@ def solve(
 
 
 def check(model: str, requested: Mapping[str, Any]) -> None:
-    """Raise BadInput for a model that does not exist, an option it does not have, or one of another type."""
-    known = options(model)
+    """Raise BadInput for an unknown model, an option that it does not have, or a value of another type.
+
+    Parameters
+    ----------
+    model : str
+        Name of a reference model.
+    requested : mapping
+        Options by name, `elements` among them or not.
+
+    Raises
+    ------
+    BadInput
+        Names the model's options, or a value of the right type.
+
+    Examples
+    --------
+    >>> import fem_reference
+    >>> fem_reference.check("shell", {"graded": False})
+    """
+    defaults = options(model)
     for name, value in requested.items():
         if name == "elements":
             continue
-        if name not in known:
-            raise BadInput(f"{model}: no option '{name}'; it has {', '.join(['elements', *known])}")
-        if isinstance(known[name], bool | int | str) and type(value) is not type(known[name]):
-            raise BadInput(f"{model}: {name} = {value!r}: not a value like {known[name]!r}")
+        if name not in defaults:
+            raise BadInput(f"{model}: no option '{name}'; it has {', '.join(['elements', *defaults])}")
+        if isinstance(defaults[name], bool | int | str) and type(value) is not type(defaults[name]):
+            raise BadInput(f"{model}: {name} = {value!r}: not a value like {defaults[name]!r}")
         if name == "law":
             require_choice(name, value, {**STRAIN_LAWS, **WORDS})
 
 
 def options(model: str) -> dict[str, Any]:
-    """A reference model's own options with their defaults. Raises BadInput for an unknown model."""
+    """Return the options of a reference model with their defaults.
+
+    Parameters
+    ----------
+    model : str
+        Name of a reference model.
+
+    Returns
+    -------
+    dict
+        Default values by name, without `elements`.
+
+    Raises
+    ------
+    BadInput
+        For an unknown model.
+
+    Examples
+    --------
+    >>> import fem_reference
+    >>> fem_reference.options("shell")["graded"]
+    True
+    """
     require_choice("model", model, MODELS)
     from fem_reference.sheets import SHEETS
 
-    _, _, *own = signature(SHEETS[model]).parameters.values()  # behind scene and elements
-    found = {p.name: p.default for p in own if p.kind is not Parameter.KEYWORD_ONLY}
-    return found | ({"branch": "path"} if model == "shell" else {})
+    _, _, *parameters = signature(SHEETS[model]).parameters.values()  # after scene and elements
+    defaults = {p.name: p.default for p in parameters if p.kind is not Parameter.KEYWORD_ONLY}
+    return defaults | ({"branch": "path"} if model == "shell" else {})
 
 
 def __getattr__(name: str) -> Any:

@@ -1,4 +1,4 @@
-"""The layer along edges that let twist go, and how much of it a mesh misses.
+"""Boundary layer along edges without twisting moment, and the part of it that a mesh does not resolve.
 
 Along a free, hinged or held edge the director's tilt ψ along the edge turns until no twisting moment is left,
 within a layer of length ℓ = h/√10 (D (1 − ν)/2 ψ'' = k G h ψ, k = 5/6), and the sheet is softer for it: a
@@ -7,8 +7,8 @@ of lengths t, t', … in units of ℓ behind the edge find the share
 
     c = e₀ · (K + M)⁻¹ e₀,     K, M of ∫ ψ' φ' and ∫ ψ φ on quadratic elements,
 
-of the layer's compliance: 1 for t ≪ 1, 6 √2/t for equal t ≫ 1. What is missed, 1 − c, coarser meshes do not
-tell of: they miss it as well, and agree. Linear plates with four hinged edges are (0.63 ± 0.06) times
+of the layer's compliance: 1 for t ≪ 1, 6 √2/t for equal t ≫ 1. Coarser meshes do not reveal the rest, 1 − c:
+they miss it as well, and agree. Linear plates with four hinged edges are (0.63 ± 0.06) times
 Σ 0.315 h/b (1 − c) too stiff, for h/a from 0.003 to 0.025 and 6 to 24 elements; others, where less of the
 energy is twist, less.
 Lengths in metres.
@@ -33,8 +33,9 @@ _VALUES = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 30.
 
 
 class Missed(NamedTuple):
-    """What a mesh misses of the layers: the largest share 1 − c of any edge, and the sum of 0.315 h/b (1 − c)
-    over the edges, by which a sheet that only twists is too stiff."""
+    """Parts of the edge layers that a mesh does not resolve. share: the largest 1 − c of any edge;
+    stiffening: the sum of 0.315 h/b (1 − c) over the edges, the relative excess stiffness of a sheet that
+    only twists."""
 
     share: float
     stiffening: float
@@ -44,36 +45,35 @@ NOTHING = Missed(0.0, 0.0)
 
 
 def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
-    """What the mesh of an answer with these settings misses: graded unless they say otherwise.
-
-    Bricks, which have a `grading`, also have a layer about as wide as the sheet is thick where its stiffness
-    steps, and miss it: they converge in first order there.
-    """
+    """Return the unresolved parts of the layers on the mesh of an answer, given its settings. The mesh is
+    graded unless the settings exclude it. Bricks (their settings have a `grading`) also have a layer about as
+    wide as the sheet is thick where its stiffness steps, and do not resolve it: they converge in first order
+    there."""
     requested = settings["elements"]
     counts = divisions(scene.sheet, requested if isinstance(requested, int) else tuple(requested))
-    even = settings.get("graded") is False or settings.get("grading") == "uniform"
+    uniform = settings.get("graded") is False or settings.get("grading") == "uniform"
     bricks = "grading" in settings
-    rows = not bricks or has_lines(scene)
-    lines, thickness = lines_of(scene, counts, rows and not even), scene.sheet.thickness
+    graded = not bricks or has_lines(scene)
+    lines, thickness = lines_of(scene, counts, graded and not uniform), scene.sheet.thickness
     share, stiffening = 0.0, 0.0
     for name in sorted(scene.twisting_edges()):  # alike in every process
         edge = EDGES[name]
         cells = np.diff(lines[edge.normal_axis])
-        lost = 1.0 - captured((cells[::-1] if edge.far_end else cells) / (LENGTH * thickness))
-        share = max(share, lost)
-        stiffening += lost * SOFTENING * thickness / scene.sheet.lengths[edge.normal_axis]
-    own = [(name, patch.own[name]) for patch in scene.patches for name in ELASTIC & set(patch.own)]
-    if bricks and any(value != getattr(scene.material, name) for name, value in own):
+        missed = 1.0 - captured((cells[::-1] if edge.far_end else cells) / (LENGTH * thickness))
+        share = max(share, missed)
+        stiffening += missed * SOFTENING * thickness / scene.sheet.lengths[edge.normal_axis]
+    local_values = [(name, patch.own[name]) for patch in scene.patches for name in ELASTIC & set(patch.own)]
+    if bricks and any(value != getattr(scene.material, name) for name, value in local_values):
         share = 1.0
     return Missed(share, stiffening)
 
 
 def captured(cells: np.ndarray) -> float:
-    """c of cells (n,) in layer lengths, from the edge inwards."""
-    both = np.zeros((2 * len(cells) + 1, 2 * len(cells) + 1))
+    """Return the resolved share c of the layer by cells (n,) in layer lengths, from the edge inwards."""
+    matrix = np.zeros((2 * len(cells) + 1, 2 * len(cells) + 1))
     for i, cell in enumerate(cells):
         nodes = slice(2 * i, 2 * i + 3)
-        both[nodes, nodes] += _SLOPES / cell + cell * _VALUES
-    load = np.zeros(len(both))
+        matrix[nodes, nodes] += _SLOPES / cell + cell * _VALUES
+    load = np.zeros(len(matrix))
     load[0] = 1.0
-    return min(float(np.linalg.solve(both, load)[0]), 1.0)
+    return min(float(np.linalg.solve(matrix, load)[0]), 1.0)

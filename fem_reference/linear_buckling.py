@@ -1,6 +1,6 @@
 """Linear buckling of shell and solid (`sheetbench.numerics.continuation.buckling`).
 
-The plate's strains are linear, and so its stiffness is the same under every load.
+The plate's strains are linear, so that its stiffness does not depend on the load.
 """
 
 from __future__ import annotations
@@ -19,9 +19,32 @@ from sheetbench.scenes import AnyScene, require_static, scene_of
 
 
 def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, count: int = 1) -> Buckling:
-    """The `count` lowest factors of a scene's dead loads at which a flat shell or solid buckles, and their
-    shapes. Raises what `lumped.buckling` does, and BadInput for the plate.
+    """Return the lowest load factors at which a flat shell or solid buckles, and the shapes.
 
+    Parameters
+    ----------
+    scene : Scene, str or path
+        A scene with dead loads, the name of one in the catalogue, or a scene file.
+    model : {"shell", "solid"}
+        The reference model.
+    elements : int or (int, int)
+        Number of elements along the shorter side, or along x and y.
+    count : int
+        Number of load factors.
+
+    Returns
+    -------
+    Buckling
+        Factors of the scene's loads (count,) and shapes; `displacement(points)` gives them at plan points
+        [m].
+
+    Raises
+    ------
+    BadInput
+        For the plate, loads that follow the sheet, obstacles or actuators, as `lumped.buckling` does.
+
+    Examples
+    --------
     >>> import fem_reference
     >>> from sheetbench.scenes import load
     >>> on_edge = load("one-edge-clamped").replace(gravity={"acceleration": (0.0, -9.81, 0.0)})
@@ -32,10 +55,10 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
     require_flat_and_dead(scene)
     if model not in ("shell", "solid"):
         raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")
-    begin, counts = now(), divisions(scene.sheet, elements)
+    started, counts = now(), divisions(scene.sheet, elements)
     sheet = SHEETS[model](scene, counts, law=scene.material.law or STRAIN_LAW)
     smallest = STILL * max(scene.sheet.lengths)
-    found, states = buckling_modes(
+    load_factors, states = buckling_modes(
         Static(sheet),
         sheet.solver(),
         lambda state: sheet.middles(sheet.displacement(state.q)),
@@ -47,8 +70,8 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
         model=model,
         label=f"{model} {counts[0]} × {counts[1]}",
         settings={"elements": list(counts)},
-        load_factors=found,
+        load_factors=load_factors,
         unknowns=sheet.unknowns,
-        seconds=now() - begin,
+        seconds=now() - started,
         displacement=lambda points: np.stack([sheet.sample(shape, points) for shape in shapes]),
     )

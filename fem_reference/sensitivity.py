@@ -30,14 +30,14 @@ from fem_reference.shell.element import weighed
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.constants import LAW, STRAIN, Values, by_values, constants_with, values_of
-from fem_reference.surface.location import shares
+from fem_reference.surface.location import interpolate, shares
 from fem_reference.surface.materials import stretched
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import natural_at
-from sheetbench.scenes.meaning.parameters import names_of, parameter, put
+from sheetbench.scenes.meaning.parameters import names_of, parameter, put, short_name
 from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-4  # of a parameter, or of 1 where it is zero
@@ -128,6 +128,11 @@ class SheetSensitivity:
             step = sheet.expand(shape, self.factor.solve(-sheet.reduce(shape, rate)))
         return sheet.displacement(step + placed)
 
+    def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
+        """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
+        plan = self.sheet.plan
+        return interpolate(plan.mesh, plan.elements, self.pushforward({name: 1.0}), np.asarray(points))
+
     def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:
         """Return λ·∂R/∂e0 or λ·∂R/∂k0 (m, 3) of λ (N,), xx, yy and xy, of one value an element."""
         sheet, shape, element = self.sheet, self.shape, self.sheet.element
@@ -164,7 +169,7 @@ class SheetSensitivity:
 
     def ends(self, name: str) -> tuple[tuple[Scene, Scene], float]:
         """Return the scene on both sides of a parameter, and how far apart these are. Raises BadInput."""
-        name = name.removeprefix("material.").removeprefix("sheet.")
+        name = short_name(name)
         found = parameter(self.scene, name)
         step = STEP * (abs(found.value) or 1.0)
         at = (max(found.value - step, found.low), min(found.value + step, found.high))

@@ -1,9 +1,9 @@
 """Statics of the references: the discrete sheet of a scene on its path to the full load.
 
-A fine shell begins at the equilibrium of a coarse one (`shell.coarse_start`). Where a graded one bends more
-than stretched elements stand (`shell.validity`), it is divided evenly after all, and `fallback` says so. Past
-limit points under conservative loads its path goes on (see `pseudo_transient`), and `snaps` has the load
-factors at which the sheet snapped.
+A fine shell begins at the equilibrium of a coarse one (`shell.coarse_start`). A graded shell that bends more
+than stretched elements can follow (`shell.validity`) is divided evenly instead, which the answer's `fallback`
+reports. Past limit points under conservative loads the path goes on (see `pseudo_transient`), and `snaps` has
+the load factors at which the sheet snapped.
 """
 
 from __future__ import annotations
@@ -31,33 +31,32 @@ from sheetbench.numerics.continuation.path import Progress
 def solve(
     division: Division, branch: str = "path", near: Shape | None = None, progress: Progress | None = None
 ) -> Solution:
-    """Return the static equilibrium of a divided sheet.
-
-    branch, near: of the shell. branch: one of `choices.BRANCHES`; "buckled" leaves an unstable equilibrium
-    along its lowest mode for a stable one. near: the shape, as `coarse_start.shaped` takes it, of an
-    equilibrium to be sought from first; where it leads to no stable one, from flat."""
+    """Return the static equilibrium of a divided sheet. branch, near: of the shell. branch: one of
+    `choices.BRANCHES`; "buckled" leaves an unstable equilibrium along its lowest mode for a stable one. near:
+    a shape, as in `coarse_start.shaped`, near the equilibrium that is sought first; where no stable one is
+    found from there, the path starts flat."""
     require_choice("branch", branch, BRANCHES)
-    divisions, runs, begin = [division], list[Traced](), near and partial(coarse_start.shaped, near)
+    divisions, runs, start = [division], list[Traced](), near and partial(coarse_start.shaped, near)
     while near is None and (coarser := divisions[-1].coarser()) is not None:
         divisions.append(coarser)
     buckled, fallback = branch == "buckled", ""
-    for each in divisions[::-1]:
-        inspect = stretched if each.model == "shell" and each.graded else inspected
-        own = {"buckled": buckled} if each is division else {"limits": coarse_start.LIMITS}
-        run = traced(each.sheet, inspect, begin, progress=progress, **own)
+    for level in divisions[::-1]:
+        inspect = stretched if level.model == "shell" and level.graded else inspected
+        options = {"buckled": buckled} if level is division else {"limits": coarse_start.LIMITS}
+        run = traced(level.sheet, inspect, start, progress=progress, **options)
         sheet, path = cast(DiscreteShell, run.sheet), run.path
-        begin = partial(coarse_start.start, sheet, path.state.q) if coarse_start.plain(path) else None
+        start = partial(coarse_start.start, sheet, path.state.q) if coarse_start.plain(path) else None
         runs.insert(0, run)
     if runs[0].path.fault is STRETCHED:
         fallback = "divided evenly, for it bends much"
         runs.insert(0, traced(division.with_grading(False).sheet, progress=progress, buckled=buckled))
-    found = answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
-    if (again := runs[0].sheet.again()) is None:
-        return found
-    return replace(found, sensitivity=partial(_sensitivity, again, runs[0].path.state.q, found))
+    answer = answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
+    if (make_again := runs[0].sheet.again()) is None:
+        return answer
+    return replace(answer, sensitivity=partial(_sensitivity, make_again, runs[0].path.state.q, answer))
 
 
-def _sensitivity(again: Callable[[], Any], q: np.ndarray, answer: Solution) -> SheetSensitivity:
-    """Return what has the derivatives of an answer, of a sheet made again at q (N,)."""
+def _sensitivity(make_again: Callable[[], Any], q: np.ndarray, answer: Solution) -> SheetSensitivity:
+    """Return the derivatives of an answer, from a sheet made again at q (N,)."""
     answer.require_stable()
-    return SheetSensitivity(again(), q)
+    return SheetSensitivity(make_again(), q)

@@ -3,9 +3,8 @@
     K φ = ω² M φ,    f = ω/2π,    φᵀ M φ = 1
 
 K is the model's stiffness at rest and M its consistent mass, rotary inertia included. Loads, weight and
-damping have no part in it, nor have actuators; a curved support and a tilted clamp count as upright clamps.
-About the deformed sheet, which the shell alone knows, K is the tangent of its equilibrium under the full
-load.
+damping have no part in it, nor have actuators; curved supports and tilted clamps count as upright clamps.
+About the deformed sheet (the shell only), K is the tangent of its equilibrium under the full load.
 Lanczos iterations (ARPACK) on (K − σM)⁻¹ with the shift σ = −E h²/12ρ a⁴, below the spectrum and of the order
 of the lowest ω², so that a free sheet's singular K needs no special care.
 
@@ -13,10 +12,9 @@ As many lowest modes as supports leave rigid motions free, whose frequency is ze
 number is reported.
 
 Plate and shell are divided finer towards the edges, over `REACH` of their elements: there the clamps' ends
-have singularities, but modes have waves in the middle too. Of the first ten frequencies of Habibi et al.'s
-sheet on 16 × 16 elements the largest error, against 64 × 64, falls from 0.31 % (one edge clamped) and 0.23 %
-(two) of even elements to 0.05 and 0.09 %; graded over all elements it is 0.04 and 0.14 %, more on coarse
-meshes.
+have singularities, but modes have waves in the middle too. The largest error of Habibi et al.'s sheet's first
+ten frequencies on 16 × 16 elements, against 64 × 64, falls from 0.31 % (one edge clamped) and 0.23 % (two)
+with equal elements to 0.05 and 0.09 %; graded over all elements it is 0.04 and 0.14 %, more on coarse meshes.
 
 Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's rotations; solid, ρ; and
 payloads, on the mid-surface and the director (`surface.carried`). SI units.
@@ -43,13 +41,13 @@ from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, free_rigid_motions, require_static, scene_of
 
-REACH = 0.375  # of the grading
-ALIKE = 1e-6  # of a frequency, up to which another is the same
+REACH = 0.375  # share of the elements that are graded
+COINCIDENT = 1e-6  # largest relative difference of coincident frequencies
 
 
 @dataclass(frozen=True, repr=False)
 class ReferenceModes(NaturalModes):
-    """Shapes are of all nodes, of φᵀ M φ = 1."""
+    """Natural modes of a reference; shapes at all nodes, φᵀ M φ = 1."""
 
     label: str
     settings: dict[str, Any]
@@ -58,24 +56,26 @@ class ReferenceModes(NaturalModes):
     gradient_of: Callable[[int], Any] | None = None
 
     def sensitivity(self, number: int) -> Any:
-        """Return df/dθ [Hz per unit] by name of the mode of a number, the first being 1 (`mode_sensitivity`).
-        Raises Impossible for the solid, where two frequencies coincide, and for the last mode found."""
+        """Return df/dθ [Hz per unit] by parameter name of the mode of a number, the first being 1
+        (`mode_sensitivity`). Raises Impossible for the solid, where two frequencies coincide, and for the
+        last mode computed."""
         if self.gradient_of is None:
             raise Impossible(
                 f"derivatives of frequencies: of plate and shell, without a section; not of {self.label}"
             )
         if not 1 <= number < len(self.frequencies):
             raise Impossible(f"mode {number}: its neighbours must be known: 1 to {len(self.frequencies) - 1}")
-        near = np.abs(self.frequencies - self.frequencies[number - 1]) <= ALIKE * self.frequencies[number - 1]
-        if near.sum() > 1:
-            which = " and ".join(str(n + 1) for n in np.flatnonzero(near))
+        frequency = self.frequencies[number - 1]
+        coincident = np.abs(self.frequencies - frequency) <= COINCIDENT * frequency
+        if coincident.sum() > 1:
+            numbers = " and ".join(str(n + 1) for n in np.flatnonzero(coincident))
             raise Impossible(
-                f"modes {which} coincide: each of their frequencies has no derivative of its own"
+                f"modes {numbers} coincide: each of their frequencies has no derivative of its own"
             )
         return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
+        """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
         at = np.asarray(points, dtype=float).reshape(-1, 2)
         return np.stack([self.sample(shape, at) for shape in self.shapes])
 
@@ -91,18 +91,43 @@ def modes(
     about: About = "flat",
     **options: Any,
 ) -> ReferenceModes:
-    """The `count` lowest elastic modes; a scene without supports is a free sheet.
+    """Return the lowest elastic modes of a scene; without supports it is a free sheet.
 
-    about: the flat, stress-free sheet, or its equilibrium under the scene's loads (the shell only; no
-    actuators, no follower loads).
+    Parameters
+    ----------
+    scene : Scene, str or path
+        A scene, the name of one in the catalogue, or a scene file.
+    model : {"plate", "shell", "solid"}
+        The reference model.
+    elements : int or (int, int)
+        Number of elements along the shorter side, or along x and y.
+    count : int
+        Number of elastic modes.
+    about : {"flat", "deformed"}
+        The flat, stress-free sheet, or its equilibrium under the scene's loads (the shell only, without
+        actuators and loads that follow the sheet).
+    **options : bool, str or Section
+        `law` of strain of shell and solid, by default of the scene's rubber; `section` and `graded` of plate
+        and shell (elements finer towards the edges, the default), as in `solve`.
 
-    options: the model's own; of shell and solid the `law` of strain, that of the scene's rubber unless given,
-    of plate and shell `section`, as in their `solve`, and `graded`, whether they
-    are divided finer towards the edges (they are by default).
+    Returns
+    -------
+    ReferenceModes
+        Frequencies (count,) [Hz], shapes (count, nodes, 3) and the number of rigid modes left out.
 
-    Raises BadInput for an unknown model or a count that the mesh cannot give, NoEquilibrium where there is
-    none to be about.
+    Raises
+    ------
+    BadInput
+        For an unknown model, or more modes than the mesh has.
+    NoEquilibrium
+        Where there is no stable equilibrium for "deformed".
 
+    Notes
+    -----
+    Lanczos iterations with a shift below the spectrum; the module's docstring has the equations.
+
+    Examples
+    --------
     >>> import fem_reference
     >>> from sheetbench.scenes import load
     >>> fem_reference.modes(load("one-edge-clamped"), "plate", elements=4, count=2).frequencies.round(1)
@@ -139,7 +164,7 @@ def modes(
         values, vectors = lowest_modes(stiffness, mass, count + rigid, -(slow**2), dense=0)
 
     def gradient_of(number: int) -> Any:
-        from fem_reference.mode_sensitivity import FrequencyGradient  # for those who ask
+        from fem_reference.mode_sensitivity import FrequencyGradient  # loaded when derivatives are requested
 
         mode = basis @ vectors[:, rigid + number - 1]
         return FrequencyGradient(sheet, q, at, mode, float(values[rigid + number - 1]))

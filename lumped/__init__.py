@@ -18,14 +18,14 @@ from lumped.masses import Inertia
 from lumped.mid_surface import MidSurface
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import require_alike, sections_of
-from lumped.sensitivity import Differentiable, sensitivity
+from lumped.sensitivity import Differentiable
 from lumped.statics.buckling import buckling
 from lumped.statics.solver import build_problem, solve
 from lumped.vibration import Modes, modes, usual_masses
 
 if TYPE_CHECKING:
     from lumped.description import Description, describe
-    from lumped.dynamics.explicit.step_limit import measured_limit, step_limit
+    from lumped.dynamics.explicit.step_limit import step_limit
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
     from lumped.dynamics.runs.initial import in_motion
@@ -66,13 +66,11 @@ __all__ = [
     "identifiability",
     "in_motion",
     "linearise",
-    "measured_limit",
     "modes",
     "moduli",
     "require_alike",
     "require_integrator",
     "sections_of",
-    "sensitivity",
     "shortest_period",
     "simulate",
     "solve",

@@ -24,10 +24,10 @@ from sheetbench.scenes.objects.springs import Distribution
 class Assembly:
     """Energy, force and tangent of a calibrated lattice. Displacements and forces are (n, 3) [m], [N].
 
-    springs: the families (`lumped.springs.families`), the central `links` first. inertia: how masses that
-    move are shared out. couple: makes the actuators bound to the lattice; their rows follow those of the
-    masses in every array. rounding: relative spacing of the internal force's numbers.
-    twisting: edges along which nothing holds the director (`Scene.twisting_edges`).
+    springs: the families (`lumped.springs.families`), the central `links` first. inertia: distribution of the
+    mass in motion. couple: creates the actuators bound to the lattice; their rows follow the masses' rows in
+    every array. rounding: relative spacing of the internal force's numbers. twisting: edges along which
+    nothing holds the director (`Scene.twisting_edges`).
     """
 
     natural: NaturalState | None = None
@@ -50,25 +50,25 @@ class Assembly:
             calibration.grading,
             calibration.per_area,
         )
-        # Habibi et al.'s lattice has equal masses; any other one is as inert at its edges as the sheet
+        # Habibi et al.'s lattice has equal masses; any other has the sheet's inertia at its edges
         self.cells = calibration.cells
         self.inertia: Distribution = "tributary" if weights == "full" else "gregory"
         self.coupling = couple(self.lattice) if couple is not None else None
         if self.coupling is None:
             self.pattern = of_grid(self.lattice.grid, self.lattice.present)
         else:
-            own = self.coupling.pairs()
+            of_actuators = self.coupling.pairs()
             pairs = neighbours(self.lattice.columns())
-            rows, columns = (np.concatenate(part) for part in zip(pairs, own, strict=True))
+            rows, columns = (np.concatenate(part) for part in zip(pairs, of_actuators, strict=True))
             self.pattern = MassPattern(self.coupling.size, rows, columns)
-            self.coupling_slots = self.pattern.slots(*own)
+            self.coupling_slots = self.pattern.slots(*of_actuators)
         self._take(springs_of(self.lattice, self.pattern, calibration.springs))
 
     def grow(self, state: NaturalState) -> None:
-        """Give its cells a natural state, which springs have in full unless `at` a share of it."""
+        """Give the cells a natural state; `at` returns the lattice at a share of it."""
         make = with_natural(self.lattice, self.springs, state)
         self._take(AllFamilies(make(*state.at()), self.pattern))
-        self.natural = state.made(lambda *forms: self._with(make(*forms)))
+        self.natural = state.made(lambda *forms: self._with_families(make(*forms)))
 
     def _take(self, springs: AllFamilies) -> None:
         self.all_families = springs
@@ -76,14 +76,14 @@ class Assembly:
         self.springs, self.links = springs.families, springs.links
         self.conservative, self.any_strain = springs.conservative, springs.any_strain
 
-    def _with(self, families: Sequence[Family]) -> Assembly:
+    def _with_families(self, families: Sequence[Family]) -> Assembly:
         other = copy(self)
         other._take(AllFamilies(families, self.pattern))
         return other
 
     def at(self, share: float = 1.0, time: float | None = None) -> Assembly:
-        """Return the lattice with its springs at a share of the sheet's natural state, where it has one, at a
-        time [s], without one the last."""
+        """Return the lattice with its springs at a share of the sheet's natural state, if any, and at a time
+        [s], by default the last."""
         return self if self.natural is None else cast(Assembly, self.natural.at(share, time))
 
     def require_energy(self) -> None:
@@ -94,5 +94,5 @@ class Assembly:
             )
 
     def survey(self, u: np.ndarray) -> Survey:
-        """Return what the springs store at u, and how far they are strained."""
+        """Return the springs' energies and largest strains at a displacement u (n, 3) [m]."""
         return self.all_families.survey(u, self.lattice.grid[2])

@@ -1,11 +1,10 @@
-"""What every cell of a sheet is made of, as fields: a lattice of any values, and derivatives by all of them.
+"""Fields over the cells of a sheet, E, ν, h, ρ and natural state: lattices of any values, and derivatives.
 
 Springs of a cell follow from its own section by the closed form of `lumped.calibration.closed_form`, at the
-layer distance that the lattice has, so that what would be negative springs at the least distance may be
-slightly so here. Along edges and rims a cell keeps the factor f of its twisting stiffness, which is that of
-the lattice's own calibration: f depends on how cells across a strip differ (`lumped.calibration.edge_twist`).
-As each cell's constants depend on that cell alone, one difference with all cells changed at once gives the
-derivatives of all.
+lattice's own layer distance, so that some springs may be slightly negative here. Along edges and rims a cell
+keeps the factor f of its twisting stiffness from the lattice's own calibration, as f depends on all cells
+across a strip (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone: one
+difference with all cells changed at once gives all rates, a sparse matrix, which is made once a lattice.
 
 Fields over the cells (rows, columns), from y0 to y1, each row from x0 to x1:
 
@@ -24,13 +23,15 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
+import scipy.sparse as sp
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.calibration.cell_by_cell import each_cell
 from lumped.calibration.closed_form import springs_of_cells
 from lumped.masses import shares_of_layers
-from lumped.natural import grown, pulled
+from lumped.natural import grown
+from lumped.natural import rates as natural_rates
 from lumped.sections import CellSection, of_cells, twisting
 from lumped.spring_constants import EDGES_OWN, NEAR_EDGES, NONE, RIMS_OWN, Springs
 from lumped.springs.all_families import (
@@ -56,14 +57,17 @@ STEP = 1e-5  # of a field, for differences of springs, whose error is of its squ
 CLOSED = {"consistent-membrane": {"gradients": True}, "consistent-oblique": {"waves": True}}
 CLOSED |= {"consistent": {}, "consistent-interior": {}}
 Fields = Mapping[str, np.ndarray]
+Rate = tuple[
+    np.ndarray, np.ndarray
+]  # cells beside each spring (q, m), of its constants by theirs (q, m, n, c)
 
 
 class CellFields:
-    """Of a scene's lattice `assembly` with the springs of a calibration."""
+    """The fields of a scene's lattice `assembly` with the springs of a calibration."""
 
     def __init__(self, scene: Scene, calibration: Calibration, assembly: Assembly):
         self.scene, self.calibration, self.assembly = scene, calibration, assembly
-        self.shape = assembly.lattice.cell_areas.shape
+        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, sp.csr_array]()
 
     @cached_property
     def section(self) -> CellSection:
@@ -100,6 +104,8 @@ class CellFields:
     def changed_section(self, fields: Fields) -> CellSection:
         """Return the sections of cells with other fields."""
         section, base = self.section, self.base
+        if not fields.keys() & {*NUMBERS}:
+            return section
 
         def ratio(name: str) -> np.ndarray:
             whole = np.where(base[name] != 0.0, base[name], 1.0)
@@ -183,7 +189,7 @@ class CellFields:
         return assembly
 
     def _grown(self, families: AllFamilies, fields: Fields) -> Assembly:
-        """Return the lattice with these springs in the natural state of fields."""
+        """Return the lattice of these springs in the natural state of fields."""
         assembly, natural = copy(self.assembly), self.assembly.natural
         assembly.natural = None
         assembly._take(families)
@@ -194,55 +200,87 @@ class CellFields:
             assembly.grow(natural.made(lambda *forms: forms))
         return assembly
 
+    def complete(self, fields: Fields, assembly: Assembly) -> Assembly:
+        """Return the lattice of these fields with springs of the mid-surface, which other values need."""
+        if len(assembly.springs[2]):
+            return assembly
+        own = self.springs(fields)
+        own = replace(own, of={**own.of, "mid_area": (np.full(self.shape, NOTHING),)})
+        return self._grown(self.families_of(own), fields)
+
     def powers(
-        self, name: str, fields: Fields, assembly: Assembly, u: np.ndarray, v: np.ndarray
+        self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray], v: np.ndarray
     ) -> np.ndarray:
-        """Return the derivatives by a field of the power v·(f − f_int) at u (n, 3), of the lattice of these
-        fields."""
+        """Return the derivatives of v·(f − f_int) by a field, of the complete lattice of these fields; by:
+        the derivatives of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
+        base, found = fields.get(name, self.base[name]), np.zeros(1)
+        if name != "density":
+            rates = self._rates(name, fields, assembly, [one.shape for one in by])
+            found = -(rates @ np.concatenate([one.ravel() for one in by])).reshape(base.shape)
+        if name in ("density", "thickness") and self.scene.gravity is not None:
+            acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
+            per_area = self.changed_section(fields).per_area / np.where(base > 0.0, base, 1.0)
+            found = found + per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
+        return found
+
+    def _rates(
+        self, name: str, fields: Fields, assembly: Assembly, shapes: list[tuple[int, ...]]
+    ) -> sp.csr_array:
+        """Return the rates of all constants, of these shapes, by a field; kept at the scene's own values."""
+        others = fields.keys() - {name} if name == "young" else fields.keys()
+        own, kept = others & {*OF_SECTION, *STATE}, self._kept
+        if own or name not in kept:
+            first, entries = 0, []
+            parts = self._made(name, fields if own else {}, assembly)
+            for (cells, rate), (m, width) in zip(parts, shapes, strict=False):
+                if rate.size and m:
+                    columns = first + width * np.arange(m)[:, None, None] + np.arange(rate.shape[2])[:, None]
+                    rows = cells[:, :, None, None] * rate.shape[3] + np.arange(rate.shape[3])
+                    of = np.nonzero(rate)
+                    entries.append((rate[of], *(np.broadcast_to(e, rate.shape)[of] for e in (rows, columns))))
+                first += m * width
+            values, *at = map(np.concatenate, zip(*entries, strict=True))
+            rates = sp.csr_array(
+                (values, tuple(at)), shape=(self.base[name].size, sum(m * n for m, n in shapes))
+            )
+            if own:
+                return rates
+            kept[name] = rates
+        return kept[name]
+
+    def _made(self, name: str, fields: Fields, assembly: Assembly) -> list[Rate]:
+        """Return the rates by cells and kinds of springs: linear in E, else by a central difference."""
+        if name == "density":
+            return []
         if name in STATE:
             strain, bent = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
-            flat, by = assembly.springs, assembly.all_families.powers_by_constants(u, v)
+            flat = assembly.springs
             if assembly.natural is not None:
                 of_section = fields.keys() & {*OF_SECTION}
                 springs = self.springs(fields) if of_section else self.calibration.constants
                 flat = self.families_of(springs).families
-            return -pulled(assembly.lattice, flat[:3], (strain, bent), by, name == "curvature")
-        found, base = np.zeros(self.shape), fields.get(name, self.base[name])
-        if name in OF_SECTION:
-            found -= self._of_springs(name, base, fields, assembly, u, v)
-        if name in ("density", "thickness") and self.scene.gravity is not None:
-            acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
-            per_area = self.changed_section(fields).per_area / np.where(base > 0.0, base, 1.0)
-            found += per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
+            return natural_rates(assembly.lattice, flat[:3], (strain, bent), name == "curvature")
+        base = fields.get(name, self.base[name])
+        ends, over = [(base, 1.0)], base
+        if name != "young":
+            step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
+            ends, over = [(base + step, 1.0), (base - step, -1.0)], 2.0 * step
+        over = np.where(over > 0.0, over, 1.0).ravel()
+        sides = [(self._of_cells({**fields, name: end}, assembly), sign) for end, sign in ends]
+        found = []
+        for parts in zip(*(side for side, _ in sides), strict=True):
+            cells, rate = (
+                parts[0][0],
+                sum(sign * own for (_, own), (_, sign) in zip(parts, sides, strict=True)),
+            )
+            if rate.shape[2] == RUBBER.count:
+                rate[..., LIMIT] = 0.0  # a strain
+            found.append((cells, (rate / over[cells][:, :, None])[..., None]))
         return found
 
-    def _of_springs(
-        self, name: str, base: np.ndarray, fields: Fields, assembly: Assembly, u: np.ndarray, v: np.ndarray
-    ) -> np.ndarray:
-        """Return those of the springs' power: linear in E, else by a difference of what each cell gives to
-        its springs."""
-        if name != "young" and not len(assembly.springs[2]):  # at other values the mid-surface has some
-            own = self.springs(fields)
-            own = replace(own, of={**own.of, "mid_area": (np.full(self.shape, NOTHING),)})
-            assembly = self._grown(self.families_of(own), fields)
-        by, found = assembly.all_families.powers_by_constants(u, v), np.zeros(base.size)
-        if name == "young":
-            sides, over = [(base, 1.0)], base
-        else:
-            step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
-            sides, over = [(base + step, 1.0), (base - step, -1.0)], 2.0 * step
-        for end, sign in sides:
-            of_cells = self._of_cells({**fields, name: end}, assembly)
-            for (cells, constants), power in zip(of_cells, by, strict=True):
-                if constants.shape[2] == RUBBER.count:
-                    power[:, LIMIT] = 0.0  # a strain
-                work = sign * np.einsum("qmn,mn->qm", constants, power[:, : constants.shape[2]])
-                found += np.bincount(cells.ravel(), work.ravel(), found.size)
-        return found.reshape(base.shape) / np.where(over > 0.0, over, 1.0)
-
     def _of_cells(self, fields: Fields, assembly: Assembly) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield of each kind of springs the cells beside each, (q, m), and what they give to its constants,
-        (q, m, n)."""
+        """Yield of each kind of springs the cells beside each, (q, m), and their shares (q, m, n) of its
+        constants."""
         lattice, springs = assembly.lattice, self.springs(fields)
         these = lattice.links_of(assembly.links.nodes)
         yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
@@ -263,7 +301,7 @@ class CellFields:
             yield np.empty((1, 0), int), np.empty((1, 0, 1))
 
     def _of_masses(self, weight: np.ndarray) -> np.ndarray:
-        """Return what a unit of mass per area of every cell adds to weight · masses, weight (n,)."""
+        """Return the derivative of weight · masses by the mass per area of every cell; weight: (n,)."""
         lattice = self.assembly.lattice
         layers = lattice.grid[2]
         shares = shares_of_layers(self.scene, lattice) if self.scene.layers else np.full(layers, 1.0 / layers)

@@ -1,4 +1,4 @@
-"""What of a lattice lies in a part of the plan: shares of cells, areas of masses, and masses held there."""
+"""Coverage of a lattice by parts of the plan: shares of cells, areas of masses, and masses held there."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from sheetbench.scenes.objects.supports import Point, named, place
 if TYPE_CHECKING:
     from shapely import Geometry
 
-HELD = 0.4  # of a mass's surroundings, of which a support that takes more holds it too
+HELD_SHARE = 0.4  # of a mass's surroundings: a support that covers more holds the mass
 
 
 def part_of(scene: Scene, shape: Shape | None) -> Geometry:
-    """The part of the sheet [m] that lies in a shape, all of it for None."""
+    """Return the part of the sheet [m] that lies in a shape, all of it for None."""
     return scene.region if shape is None else scene.region.intersection(shape.area)
 
 
 def cell_shares(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarray:
-    """What share of every cell present is on the sheet and in a shape, (cells,)."""
+    """Return the share of every present cell that lies on the sheet and in a shape, (cells,)."""
     if shape is None and not scene.pierced:
         return np.ones(lattice.cell_areas.size)
     share = shares_of(part_of(scene, shape), *(lines.at for lines in lattice.lines))
@@ -37,8 +37,8 @@ def cell_shares(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarr
 
 
 def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarray:
-    """The area [m²] of the sheet in a shape, (n,): each cell's part of it as a force in its middle is shared
-    among the masses."""
+    """Return the area [m²] of the sheet in a shape by masses, (n,); each cell's part is shared among masses
+    like a force at its centroid."""
     import shapely
 
     part, places = part_of(scene, shape), [lines.at for lines in lattice.lines]
@@ -50,16 +50,17 @@ def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.n
 
 
 def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
-    """Which crossings of lines a support in a shape holds, (ny, nx): those inside and, but for rounding, on
-    its boundary, and those of whose surroundings, half a cell each way, it takes a part."""
+    """Return whether a support in a shape holds each crossing of lines, (ny, nx): a crossing inside or, but
+    for rounding, on the boundary, or with more than HELD_SHARE of its surroundings, half a cell each way,
+    covered."""
     import shapely
 
     x, y = (side.at for side in lines)
     around = (np.concatenate([at[:1], 0.5 * (at[1:] + at[:-1]), at[-1:]]) for at in (x, y))
     crossings = np.stack(np.meshgrid(x, y), axis=-1)
-    beside = shapely.distance(shape.area, shapely.points(crossings)) < COINCIDENT * max(x[-1], y[-1])
-    taken = shares_of(shape.area, *around) > HELD + COINCIDENT
-    return np.asarray(beside | shape.contains(crossings) | taken)
+    on_boundary = shapely.distance(shape.area, shapely.points(crossings)) < COINCIDENT * max(x[-1], y[-1])
+    covered = shares_of(shape.area, *around) > HELD_SHARE + COINCIDENT
+    return np.asarray(on_boundary | shape.contains(crossings) | covered)
 
 
 def union_of(supports: Sequence[Support]) -> Geometry:
@@ -70,10 +71,10 @@ def union_of(supports: Sequence[Support]) -> Geometry:
 
 
 def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
-    """How many times as stiff cells are whose rims a support cuts, (rows, columns).
+    """Return the factor of stiffness of cells that the rim of a support cuts, (rows, columns).
 
-    The held masses nearest to a support's rim are not on it. What bends there is what is free of a cell, and
-    what is free of the one beside it if all masses of that are held: f cells long, 1/f times as stiff.
+    The held masses nearest to a support's rim are not on it. The part that bends is the free part of a cut
+    cell and of the next one if all masses of the next are held: f cells long, 1/f times as stiff.
     """
     factor = np.ones((len(lines[1].widths), len(lines[0].widths)))
     for support in scene.supports:
@@ -90,9 +91,9 @@ def clamped_stiffness(scene: Scene, lines: tuple[Lines, Lines]) -> np.ndarray:
 
 
 class ObliqueRims(NamedTuple):
-    """Where the sheet is within a cell's length of rims that are not along the axes: numbers of rows and
-    columns of cells (m,), a cell once for each side that is near; part: of the cell's sheet, (m,), that is
-    near, shared among the sides by their lengths there; normal: of that side, (m, 2), of either sign."""
+    """Parts of cells within a cell's length of rims that are not along the axes, a part for each side of the
+    rim that is near. rows, columns: (m,) numbers of the cell; part: (m,) share of the cell's sheet that is
+    near, divided among the sides by their lengths; normal: (m, 2) of the side, of either sign."""
 
     rows: np.ndarray
     columns: np.ndarray
@@ -101,7 +102,8 @@ class ObliqueRims(NamedTuple):
 
 
 def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) -> ObliqueRims | None:
-    """Return what is near oblique rims, None without such; share: of the sheet in every cell."""
+    """Return the parts of cells near oblique rims, None without oblique rims; share: (rows, columns) of the
+    sheet in every cell."""
     import shapely
 
     (x, y), size = lines, max(scene.sheet.lengths)
@@ -109,7 +111,7 @@ def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) ->
     ends = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings])
     along = ends[:, 1] - ends[:, 0]
     oblique = np.abs(along).min(axis=1) > COINCIDENT * size
-    firm = union_of([s for s in scene.supports if holds_director(s)])  # they do not let the twist go
+    firm = union_of([s for s in scene.supports if holds_director(s)])  # the twist does not fade along them
     if not firm.is_empty:
         oblique &= shapely.distance(firm, shapely.points(ends.mean(axis=1))) > COINCIDENT * size
     if not oblique.any():
@@ -122,8 +124,8 @@ def oblique_rims(scene: Scene, lines: tuple[Lines, Lines], share: np.ndarray) ->
     around = shapely.buffer(boxes[near > 0.0], width, cap_style="square", join_style="mitre")
     cell, side = shapely.STRtree(sides).query(around)
     length = shapely.length(shapely.intersection(sides[side], around[cell]))
-    beside = length > COINCIDENT * size
-    cell, side, length = cell[beside], side[beside], length[beside]
+    near_side = length > COINCIDENT * size
+    cell, side, length = cell[near_side], side[near_side], length[near_side]
     rows, columns = (part[cell] for part in np.nonzero(near))
     length /= np.bincount(cell, length)[cell]
     part = np.minimum(near[rows, columns] / share[rows, columns], 1.0) * length
@@ -135,15 +137,18 @@ Reach = tuple[tuple[str, tuple[tuple[float, float], ...]], ...]
 
 
 def reached_parts(scene: Scene) -> Reach:
-    """From where to where [m] a sheet that is no whole rectangle reaches the edges that hold it, by edge: but
-    for planes of symmetry, on which every mass stays. Raises BadInput for a round or oblique rim that may
-    turn: masses beyond it are held, which clamps it."""
+    """Return the intervals [m] along held edges in which a sheet with an outline or cutouts reaches the edge,
+    by edge; planes of symmetry hold every mass and have none. Raises BadInput for a round or oblique rim that
+    may turn: masses beyond it are held, which clamps it."""
     if not scene.pierced:
         return ()
     for name, one in named(scene.supports).items():
         shape = None if isinstance(one, Point) or holds_director(one) else place(one)
         if shape is not None and shape.rectangle is None and not part_of(scene, shape).area:
-            why = "the lattice holds round and oblique rims clamped alone; plate, shell and solid also hinged"
+            why = (
+                "the lattice holds round and oblique rims clamped alone: masses held in a zigzag hold their "
+                "slope too; plate, shell and solid have it hinged"
+            )
             raise BadInput(f"{name}.where: {why}")
     held = [s for s in scene.supports if place(s) is None and not isinstance(s, Symmetric)]
     return tuple((support.edge, tuple(edge_parts(scene, support.edge))) for support in held)
@@ -152,15 +157,16 @@ def reached_parts(scene: Scene) -> Reach:
 def held_columns(
     lattice: Lattice, support: Support, reached: Reach = (), name: str = "support"
 ) -> np.ndarray:
-    """Mass numbers that a support holds, by columns (m, layers): those of its edge within half a cell of the
-    parts that the sheet reaches, or those in or nearest to its shape. Raises BadInput where it holds none."""
+    """Return the numbers of the masses that a support holds, by columns (m, layers): masses of its edge
+    within half a cell of the intervals that the sheet reaches, or masses in or nearest to its shape. Raises
+    BadInput where it holds none."""
     shape = place(support)
     if shape is None:
         columns, parts = lattice.edge_columns(support.edge), dict(reached).get(support.edge)
         if parts is None:
             return columns
         at = lattice.lines[EDGES[support.edge].along_axis].at
-        before, after = (np.concatenate(each) for each in ((at[:1], at[:-1]), (at[1:], at[-1:])))
+        before, after = (np.concatenate(places) for places in ((at[:1], at[:-1]), (at[1:], at[-1:])))
         near = [(0.5 * (at + after) > a) & (0.5 * (before + at) < b) for a, b in parts]
         return np.asarray(columns[np.any(near, axis=0)])
     columns = lattice.columns()

@@ -1,7 +1,8 @@
-"""A lattice in plain arrays: all that another program needs to build it, and states to check itself by.
+"""A lattice in plain arrays: all data that another program needs to build it, and states to check it by.
 
 Masses are numbered from 0 throughout. A spring's damper has the coefficient [N·s/m] in place of its stiffness
-and resists the rate of what the spring resists. Loads and supports are those of statics, at the full load.
+and resists the rate of the spring's measure. Loads and supports have their values of statics, at the full
+load.
 """
 
 from __future__ import annotations
@@ -29,12 +30,12 @@ from sheetbench.scenes import Scene, free_rigid_motions, require_no_branches, re
 from sheetbench.scenes.objects.supports import named
 
 EQUILIBRIUM = "equilibrium"  # a state to check by
-STRETCH, WARP, TURN = 0.02, -0.05, 2.0  # of the imposed states: strain, height over length, rad in all
+STRETCH, WARP, TURN = 0.02, -0.05, 2.0  # of the imposed states: strain, height over length, total angle [rad]
 
 
 @dataclass(frozen=True)
 class LinkTable:
-    """masses: (m, 2); family: (m,) names; rest_length: (m,) [m]; stiffness: (m,) [N/m]; damping: (m,)
+    """Links. masses: (m, 2); family: (m,) names; rest_length: (m,) [m]; stiffness: (m,) [N/m]; damping: (m,)
     [N·s/m]."""
 
     masses: np.ndarray
@@ -46,9 +47,9 @@ class LinkTable:
 
 @dataclass(frozen=True)
 class CellTable:
-    """Springs of one kind of `lumped.springs.law_table.ENERGIES`: corners (c, 4, p), the masses whose mean
-    each corner is; rest_area (c,) [m²]; natural (c, 3) [m²], A·A, B·B and A·B of the mean sides without
-    stress; stiffness (c, n) [N/m], of rubber its limit [-] too; damping (c, n) [N·s/m]."""
+    """Springs of one kind of `lumped.springs.law_table.ENERGIES`. corners: (c, 4, p) masses whose mean each
+    corner is; rest_area: (c,) [m²]; natural: (c, 3) [m²] A·A, B·B and A·B of the mean sides without stress;
+    stiffness: (c, n) [N/m], of rubber also its limit [-]; damping: (c, n) [N·s/m]."""
 
     kind: str
     corners: np.ndarray
@@ -60,7 +61,7 @@ class CellTable:
 
 @dataclass(frozen=True)
 class Hold:
-    """The mean of the masses' displacements along an axis, 0 to 2, is held at `displacement` [m]."""
+    """A support of masses: the mean of their displacements along an axis, 0 to 2, is `displacement` [m]."""
 
     edge: str
     masses: tuple[int, ...]
@@ -71,7 +72,7 @@ class Hold:
 @dataclass(frozen=True)
 class Couple:
     """An edge moment [N·m]: F = moment (t × D)/|D|² on the mass `top` and −F on `bottom`, D from bottom to
-    top, t the direction from the mean of the column `before` to that of `after`."""
+    top, t the direction from the mean of the column `before` to the mean of `after`."""
 
     top: int
     bottom: int
@@ -82,8 +83,8 @@ class Couple:
 
 @dataclass(frozen=True)
 class CheckState:
-    """A state to check by: displacement (n, 3) [m], the energy [J] of springs and contact and its gradient
-    (n, 3) [N]."""
+    """A state to check another program by: displacement (n, 3) [m], the energy [J] of springs and contact,
+    and its gradient `force` (n, 3) [N]."""
 
     name: str
     meaning: str
@@ -94,11 +95,41 @@ class CheckState:
 
 @dataclass(frozen=True)
 class Description:
-    """index: (n, 3) of each mass along x, along y and through the thickness; positions: (n, 3) [m]; mass:
-    (n,) [kg]; damping_rate: [1/s], of the masses; dead: (n, 3) [N]; pressure: (c,) [Pa], on the cells
-    `pressed` (c, 4, p) of the mid-surface; contact: points (`lumped.contact.Contact.table`); steps: how to
-    move it; notes: what of the scene is not in here. Masses of no cell, which an outline or cutouts leave,
-    are left out."""
+    """A lattice in plain arrays, without masses that belong to no cell.
+
+    Parameters
+    ----------
+    index : ndarray of shape (n, 3)
+        Number of each mass along x, along y and through the thickness.
+    positions : ndarray of shape (n, 3)
+        Positions at rest [m].
+    mass : ndarray of shape (n,)
+        Masses [kg].
+    damping_rate : float
+        Damping proportional to the masses [1/s].
+    links : LinkTable
+        Springs and dampers between two masses.
+    cells : tuple of CellTable
+        Springs and dampers of cells.
+    holds : tuple of Hold
+        Supports of masses.
+    dead : ndarray of shape (n, 3)
+        Dead loads [N].
+    pressure : ndarray of shape (c,)
+        Pressure [Pa] on cells of the mid-surface.
+    pressed : ndarray of shape (c, 4, p)
+        Masses at the corners of the cells under pressure.
+    couples : tuple of Couple
+        Edge moments.
+    contact : tuple of ndarray
+        Contact points (`lumped.contact.Contact.table`).
+    states : tuple of CheckState
+        States to check another program by.
+    steps : StableSteps
+        Stable time steps and damping.
+    notes : tuple of str, optional
+        Parts of the scene that the arrays leave out.
+    """
 
     index: np.ndarray
     positions: np.ndarray
@@ -118,10 +149,25 @@ class Description:
 
 
 def describe(scene: Scene, calibration: Calibration) -> Description:
-    """The lattice of a scene in plain arrays.
+    """Return the lattice of a scene in plain arrays.
 
-    Raises BadInput for actuators, whose chains are no springs between masses, and for Habibi et al.'s
-    per-direction springs, which have no energy.
+    Parameters
+    ----------
+    scene : Scene
+        Scene without actuators, rotary inertia and air.
+    calibration : Calibration
+        Springs of the lattice.
+
+    Returns
+    -------
+    Description
+        Masses, springs, dampers, supports and loads (SI units), three states to check by, and stable steps.
+
+    Raises
+    ------
+    BadInput
+        If the scene has actuators, whose chains are no springs between masses, payloads with rotary inertia,
+        or air, or springs have Habibi et al.'s per-direction law, which has no energy.
     """
     if scene.actuators:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
@@ -137,61 +183,64 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
     if not assembly.conservative:
         raise BadInput("export: per-direction springs have no energy, and no stiffness along their links")
     nx, ny, layers = lattice.grid
-    there = np.setdiff1d(np.arange(lattice.mass_count), lattice.absent_masses)
-    number = np.full(lattice.mass_count, -1)  # of every mass of the lattice among those that are there
-    number[there] = np.arange(len(there))
+    present = np.setdiff1d(np.arange(lattice.mass_count), lattice.absent_masses)
+    number = np.full(lattice.mass_count, -1)  # of every mass of the lattice among the present ones
+    number[present] = np.arange(len(present))
     flat = np.zeros_like(loads.dead)
     columns, moments, pressures = loads.at_time(None)
     pressed = pressures != 0.0
-    states, why = _check_states(scene, calibration, problem)
+    states, notes = _check_states(scene, calibration, problem)
     weight = masses(scene, lattice, calibration.masses, calibration.cells)
-    shapes = [flat, *(one.displacement for one in states if one.name == EQUILIBRIUM)]
+    shapes = [flat, *(state.displacement for state in states if state.name == EQUILIBRIUM)]
     lowest = modes(scene, calibration, 1, calibration.masses).frequencies[0]
     steps = stable_steps(System(scene, problem, weight), shapes, float(lowest))
-    none = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
-    points = zip(none, *(one.table() for one in problem.contacts), strict=True)
-    touching, *touched = map(np.concatenate, points)
+    no_points = np.empty((0, 4 * layers), int), np.empty((0, 4 * layers)), np.empty((0, 10))
+    points = zip(no_points, *(contact.table() for contact in problem.contacts), strict=True)
+    contact_masses, *contact_data = map(np.concatenate, points)
     return Description(
-        index=np.indices((ny, nx, layers)).reshape(3, -1)[[1, 0, 2]].T[there],
-        positions=lattice.positions[there],
-        mass=weight[there],
+        index=np.indices((ny, nx, layers)).reshape(3, -1)[[1, 0, 2]].T[present],
+        positions=lattice.positions[present],
+        mass=weight[present],
         damping_rate=scene.material.damping_rate,
         links=_links(scene, assembly, number),
         cells=tuple(_cells(scene, assembly, number)),
         holds=_holds(problem, number),
-        dead=(loads.force(flat) - loads.followers(flat))[there],  # with the last factors of their histories
+        dead=(loads.force(flat) - loads.followers(flat))[present],  # with the last factors of histories
         pressure=pressures[pressed],
         pressed=number[lattice.mid_cells[pressed]],
         couples=tuple(
-            Couple(own[-1], own[0], tuple(before), tuple(after), moment)
-            for (own, before, after), moment in zip(number[columns].tolist(), moments.tolist(), strict=True)
+            Couple(column[-1], column[0], tuple(before), tuple(after), moment)
+            for (column, before, after), moment in zip(
+                number[columns].tolist(), moments.tolist(), strict=True
+            )
         ),
-        contact=(number[touching], *touched),
+        contact=(number[contact_masses], *contact_data),
         states=tuple(
-            replace(one, displacement=one.displacement[there], force=one.force[there]) for one in states
+            replace(state, displacement=state.displacement[present], force=state.force[present])
+            for state in states
         ),
         steps=steps,
-        notes=(*_left_out(scene), *why),
+        notes=(*_differences(scene), *notes),
     )
 
 
 def _links(scene: Scene, assembly: Assembly, number: np.ndarray) -> LinkTable:
-    """The links, also those that have only a damper of the scene's own table."""
+    """Return the links, also links with a damper alone, from the scene's table of dampers."""
     springs, time = assembly.links, scene.material.dashpot_time
     dampers, times = springs, time * springs.stiffness
     if scene.dampers is not None:
         dampers = table_dampers(assembly.lattice, assembly.pattern, scene.dampers)
         times = dampers.stiffness
-    left = dict(zip(map(tuple, dampers.nodes.tolist()), times.tolist(), strict=True))
-    damping = np.array([left.pop((a, b), 0.0) for a, b in springs.nodes.tolist()])
-    alone = np.array([(a, b) in left for a, b in dampers.nodes.tolist()], dtype=bool)
+    by_masses = dict(zip(map(tuple, dampers.nodes.tolist()), times.tolist(), strict=True))
+    damping = np.array([by_masses.pop((a, b), 0.0) for a, b in springs.nodes.tolist()])
+    without_spring = np.array([(a, b) in by_masses for a, b in dampers.nodes.tolist()], dtype=bool)
 
     def rows(links: Links, *values: np.ndarray) -> tuple[np.ndarray, ...]:
         return number[links.nodes], np.array(links.names)[links.kind], links.rest_length, *values
 
     others = rows(dampers, np.zeros(len(dampers)), times)
     both = zip(rows(springs, springs.stiffness, damping), others, strict=True)
-    return LinkTable(*(np.concatenate([first, second[alone]]) for first, second in both))
+    return LinkTable(*(np.concatenate([first, second[without_spring]]) for first, second in both))
 
 
 def _cells(scene: Scene, assembly: Assembly, number: np.ndarray) -> Iterator[CellTable]:
@@ -200,13 +249,13 @@ def _cells(scene: Scene, assembly: Assembly, number: np.ndarray) -> Iterator[Cel
     families = [family for family in assembly.springs if isinstance(family, SpringCells)]
     for kind in ENERGIES:
         for family in families:
-            own, natural, area = _without_stress(family)
-            stiffness = family.law.parts(own, family.others, area).get(kind)
-            damping = AREA_AND_STRAINS.parts(time * own, None, area).get(kind)
+            constants, natural, area = _without_stress(family)
+            stiffness = family.law.parts(constants, family.others, area).get(kind)
+            damping = AREA_AND_STRAINS.parts(time * constants, None, area).get(kind)
             pair = [np.zeros_like(damping) if stiffness is None else stiffness]
             pair.append(np.zeros_like(pair[0]) if damping is None else damping)
             if (on := np.any(pair[0], axis=-1) | np.any(pair[1], axis=-1)).any():
-                springs, dampers = (each[on] for each in pair)
+                springs, dampers = (values[on] for values in pair)
                 nodes = number[family.nodes[on]]
                 yield CellTable(kind, nodes, area[on], natural[on], springs, dampers)
 
@@ -214,44 +263,45 @@ def _cells(scene: Scene, assembly: Assembly, number: np.ndarray) -> Iterator[Cel
 def _without_stress(cells: SpringCells) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return stiffness (c, 4 or 7) [N/m] and A·A, B·B, A·B (c, 3) [m²] and area (c,) [m²] without stress.
 
-    Where it is not flat at rest, of constants q (`lumped.springs.laws.of_stiffness`) of sides that grew by
-    the strain alone, with the sides and the area that go with the curvature too.
+    For a sheet that is not flat at rest the stiffness follows from the constants q
+    (`lumped.springs.laws.of_stiffness`) of sides with the natural strain alone; sides and area include the
+    natural curvature.
     """
     a, b = cells.sides.swapaxes(0, 1)
     flat = np.stack([(x * y).sum(axis=1) for x, y in ((a, a), (b, b), (a, b))], axis=1)
     if cells.natural is None:
         return cells.stiffness, flat, cells.area
     natural, area = flat + cells.natural[1:].T, cells.natural[0].copy()
-    one, other, turn = 2.0 * natural[:, 0], 2.0 * natural[:, 1], area
-    units = area**2, one**2, other**2, turn**2, one * other, one * turn, other * turn
+    first, second = 2.0 * natural[:, 0], 2.0 * natural[:, 1]
+    units = area**2, first**2, second**2, area**2, first * second, first * area, second * area
     return cells.constants * np.stack(units, axis=1) / area[:, None], natural, area
 
 
 def _holds(problem: Problem, number: np.ndarray) -> tuple[Hold, ...]:
-    """What is held, once each; a corner's under the support that comes first."""
-    constraints, place = problem.constraints, problem.prescribed(1.0)
-    found: dict[tuple[int, ...], Hold] = {}
+    """Return the supports of masses, once each; a corner's under the support that comes first."""
+    constraints, g = problem.constraints, problem.prescribed(1.0)
+    holds: dict[tuple[int, ...], Hold] = {}
     for edge, (columns, axes) in constraints.holders.items():
         for column in columns[number[columns[:, 0]] >= 0]:
             for axis in axes:
                 fixed = constraints.fixed[column[0], axis]
                 for held in column[:, None] if fixed else column[None]:
-                    hold = Hold(edge, tuple(number[held].tolist()), axis, float(place[held, axis].mean()))
-                    found.setdefault((*hold.masses, axis), hold)
-    return tuple(found.values())
+                    hold = Hold(edge, tuple(number[held].tolist()), axis, float(g[held, axis].mean()))
+                    holds.setdefault((*hold.masses, axis), hold)
+    return tuple(holds.values())
 
 
-def _left_out(scene: Scene) -> tuple[str, ...]:
-    """What of the scene these arrays do not say."""
+def _differences(scene: Scene) -> tuple[str, ...]:
+    """Return sentences about parts of the scene that the arrays leave out."""
     moving = [
         name if support.edge is None else f"the support on edge {name}"
         for name, support in named(scene.supports).items()
         if support.motion is not None
     ]
-    moving += [name for name, each in scene.named_obstacles().items() if each.motion is not None]
-    courses = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
+    moving += [name for name, body in scene.named_obstacles().items() if body.motion is not None]
+    loads = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
     changes = [f"{name} moves over time; here it is where it ends" for name in moving]
-    if any(load.history is not None for load in courses):
+    if any(load.history is not None for load in loads):
         changes.append("loads change over time in this scene; here they have their last values")
     if any(state.history is not None for state in scene.natural_states.values()):
         changes.append("the natural state changes over time; here it has its last value")
@@ -261,27 +311,27 @@ def _left_out(scene: Scene) -> tuple[str, ...]:
 def _check_states(
     scene: Scene, calibration: Calibration, problem: Problem
 ) -> tuple[tuple[CheckState, ...], tuple[str, ...]]:
-    """Return two imposed states and the equilibrium, and why there is none."""
+    """Return two imposed states and the equilibrium, or without one a note of the reason."""
     lattice = problem.assembly.lattice
     shapes = [
         ("stretched", f"stretched and warped by {STRETCH:g} and {-WARP:g}", _stretched(lattice)),
         ("rolled", f"rolled about y by {TURN:g} rad, the layers along", _rolled(lattice)),
     ]
-    why: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     if free := free_rigid_motions(scene):
-        why = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)
+        notes = (f"no equilibrium to check by: nothing stops {', '.join(free)}",)
     else:
         require_static(scene)
         path = solve_from_best_start(problem, calibration)
         if path.status is Status.CONVERGED:
             shapes.append((EQUILIBRIUM, "under supports and loads", path.state.u))
         else:
-            why = (f"no equilibrium to check by: {path.status}: {'; '.join(path.notes)}",)
+            notes = (f"no equilibrium to check by: {path.status}: {'; '.join(path.notes)}",)
     states = []
     for name, meaning, displacement in shapes:
         energy, force = problem.internal(displacement, 1.0)
         states.append(CheckState(name, meaning, displacement, force, energy))
-    return tuple(states), why
+    return tuple(states), notes
 
 
 def _stretched(lattice: Lattice) -> np.ndarray:

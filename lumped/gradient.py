@@ -6,16 +6,17 @@ tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/d�
 
     dJ/dθ = λ · ∂(f − f_int)/∂θ + ∂J/∂u · dg/dθ                                          (`pullback`).
 
-By what all cells are made of (`lumped.cell_fields`) ∂f_int/∂θ · λ is a loop over the springs, each with its
-law's derivatives by its constants. By a number of the scene ∂R/∂θ is a central difference of the residual at
-fixed q, of springs found again and supports and loads bound again. The residual is linear in every spring
-constant and in E, where that is exact to rounding; in the thickness, ν, a layer distance, a curvature or a
-tilt its relative error is of order 1e-8. Contact is differentiated with what touches now, and a load at a
-line of the grid, where its shares have a kink, has the mean of both sides.
+The derivatives by fields over the cells (`lumped.cell_fields`) are a sparse product of λ · ∂f_int/∂(constants
+of the springs), one loop with each law's own derivatives; those by E and ρ of an even sheet are its sums, and
+loads have theirs by λ alone. Other parameters of the scene have ∂R/∂θ as a central difference of the residual
+at fixed q, of springs, supports and loads made anew on both sides, which a lattice keeps. The residual is
+linear in every spring constant, and its difference is exact but for rounding; in the thickness, ν, a layer
+distance, a curvature or a tilt its relative error is of order 1e-8. Obstacles go on touching the same masses,
+and a load at a line of the grid, where its shares have a kink, has the mean of both sides.
 
-Names: those of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …; "material.young" and
-"sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, … where a direction has
-its own), layer_distance; "cells.young", … over all cells; "forces" (n, 3) [N] on the masses.
+Names: the parameters of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …;
+"material.young" and "sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, …
+in each direction), layer_distance; "cells.young", … over all cells; "forces" (n, 3) [N] on the masses.
 """
 
 from __future__ import annotations
@@ -24,15 +25,17 @@ from collections.abc import Callable, Iterator, Mapping
 from copy import copy
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import scipy.sparse as sp
 
+from lumped.assembly import Assembly
 from lumped.calibration import MAKERS, Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
+from lumped.pattern import SHARED_UP_TO
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import sections_of
 from lumped.statics.build import build_problem
@@ -41,15 +44,16 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put
+from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put, short_name
 from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
-CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # what springs are found from
+CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # sources of the springs
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
-STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of what presses in by 1e-8 m
+STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
-PATCH, OBSTACLE = "patch", "obstacle"  # with which names of what these have begin
+PATCH, OBSTACLE = "patch", "obstacle"  # beginnings of names
+WEIGHTS = "gravity", "load", "mass"
 FIELD = "cells."
 FORCES = "forces"
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
@@ -58,32 +62,75 @@ FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of
 
 Calibrate = Callable[[Scene], Calibration]
 Values = Mapping[str, np.ndarray]
+Sides = tuple[list[tuple[Problem, Calibration]], float]  # as of `both_sides`
+
+
+class Plain:
+    """A scene's lattice with its springs, and parts of its derivatives that do not depend on its shape.
+    calibrate: finds the springs of a changed scene; the same method without options does so by default."""
+
+    _last: ClassVar[list[tuple[Any, Plain]]] = []
+
+    def __init__(self, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None):
+        self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
+        self.problem = build_problem(scene, calibration)
+        self.cells = CellFields(scene, calibration, self.problem.assembly)
+        self._sides: dict[str, Sides] = {}
+        self._weights: dict[str, np.ndarray | None] = {}
+
+    @classmethod
+    def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Plain:
+        """Return the lattice of a scene; a small one that is equal to the last is not made again."""
+        springs = calibration.springs, calibration.method, calibration.grading, calibration.masses
+        key = calibrate, scene, calibration.grid, springs, id(calibration.cells)
+        for last, found in cls._last:
+            if last == key:
+                return found
+        found = cls(scene, calibration, calibrate)
+        if found.problem.assembly.lattice.mass_count <= SHARED_UP_TO:
+            cls._last = [(key, found)]
+        return found
+
+    def sides(self, name: str) -> Sides:
+        """Return `both_sides` of a parameter, made once."""
+        if name not in self._sides:
+            self._sides[name] = both_sides(self.calibration, self.problem, name, self.calibrate)
+        return self._sides[name]
+
+    def weight(self, name: str) -> np.ndarray | None:
+        """Return the derivative (n, 3) of dead loads by a parameter of theirs alone, None of another one."""
+        if name not in self._weights:
+            low, high = (side.loads for side, _ in self.sides(name)[0])
+            alone = name.startswith(WEIGHTS) and not (low.follow or high.follow)
+            rate = (high.last_dead - low.last_dead) / self.sides(name)[1]
+            self._weights[name] = rate if alone else None
+        return self._weights[name]
+
+    def scaled_by(self, name: str) -> bool:
+        """Return whether a parameter is E or ρ of all cells in proportion, and of nothing else."""
+        scene = self.scene
+        if name not in ("young", "density") or scene.layers or scene.obstacles:
+            return False
+        if not getattr(scene.material, name) or any(getattr(patch, name) for patch in scene.patches):
+            return False
+        pulled = scene.natural is not None and scene.natural.pretension is not None
+        return name == "density" or (self.calibration.method.startswith("consistent") and not pulled)
 
 
 class Equilibrium:
-    """Derivatives at a stable equilibrium u (n, 3) [m] of a problem. calibrate: how springs of a changed
-    scene are found; by the same method without options unless given; values: of fields over the cells and
+    """Derivatives at a stable equilibrium u (n, 3) [m] of a lattice. values: of fields over the cells and
     forces, by name, in place of the scene's own."""
 
-    def __init__(
-        self,
-        plain: Problem,
-        calibration: Calibration,
-        u: np.ndarray,
-        calibrate: Calibrate | None = None,
-        values: Values = MappingProxyType({}),
-    ):
-        self.plain, self.calibration, self.u, self.calibrate = plain, calibration, u, calibrate
-        self.cells = CellFields(plain.scene, calibration, plain.assembly)
-        self.values = values
-        self.problem = self.with_values({}) if values else plain
+    def __init__(self, base: Plain, u: np.ndarray, values: Values = MappingProxyType({})):
+        self.base, self.plain, self.cells, self.u, self.values = base, base.problem, base.cells, u, values
+        self.problem = self.with_values({}) if values else self.plain
 
     @classmethod
     def of(
         cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
     ) -> Equilibrium:
-        """Return those of a scene's lattice with these springs."""
-        return cls(build_problem(scene, calibration), calibration, u, calibrate)
+        """Return the derivatives at u of a scene's lattice with these springs."""
+        return cls(Plain.of(scene, calibration, calibrate), u)
 
     @property
     def fields(self) -> dict[str, np.ndarray]:
@@ -123,24 +170,25 @@ class Equilibrium:
 
     def names(self) -> list[str]:
         """Return the names of all derivatives."""
-        fields = [
-            name for name in NUMBERS if name != "poisson" or not self.problem.scene.material.ply.young_2
-        ]
-        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(self.problem.scene)]
+        scene = self.problem.scene
+        isotropic = scene.material.kind != "orthotropic" and not scene.layers
+        fields = [name for name in NUMBERS if isotropic or name != "poisson"]
+        own = (name for name in names_of(scene) if not name.endswith(OVER_TIME))
+        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *own]
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
-        """Return the derivatives of J by name, where J has these by the masses' displacement, (n, 3)."""
+        """Return the derivatives of J by name; by_displacement: ∂J/∂u (n, 3) of the masses."""
         with one_blas_thread():
             adjoint = self._transposed.solve(self.problem.reduce(by_displacement))
         return Gradient(self, by_displacement, adjoint)
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
-        """Return those of a J that has these by the displacement at plan points (p, 2), (p, 3)."""
+        """Return the derivatives of J by name; weights: ∂J/∂u (p, 3) at plan points (p, 2)."""
         middle = MidSurface(self.problem.assembly.lattice, points)
         return self.pullback(middle.shared(weights, len(self.u)))
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
-        """Return how the displacement (n, 3) moves with these changes of parameters."""
+        """Return the change (n, 3) [m] of the displacement by changes of parameters, to first order."""
         rows, moved = np.zeros(self.problem.system.unknowns), np.zeros_like(self.u)
         for name, change in changes.items():
             rate, placed = self.rates(name, change)
@@ -148,20 +196,29 @@ class Equilibrium:
         with one_blas_thread():
             return self.problem.expand(self._factor.solve(rows)) + moved
 
+    def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
+        """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
+        return MidSurface(self.problem.assembly.lattice, points).of(self.pushforward({name: 1.0}))
+
     def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""
         if name == FORCES:
             return self.problem.reduce(np.asarray(change)), np.zeros_like(self.u)
         if not name.startswith(FIELD):
-            _, moved, rows = rates(self.calibration, self.plain, self.u, name, self.calibrate, self.values)
+            _, moved, rows = rates(self.plain, self.u, self.base.sides(name), self.values)
             return change * rows, change * moved
-        base, way = self.base(name), np.asarray(change, dtype=float)
+        base, way = self.field(name), np.asarray(change, dtype=float)
         usual = 1e-5 * np.abs(base).max() or 1e-5
         step = FIELD_STEP.get(name.removeprefix(FIELD), usual) / (np.abs(way).max() or 1.0)
         up, down = (self.with_values({name: base + h * way}).residual(self.u, 1.0) for h in (step, -step))
         return (up.reduced - down.reduced) / (2.0 * step), np.zeros_like(self.u)
 
-    def base(self, name: str) -> np.ndarray:
+    @cached_property
+    def complete(self) -> Assembly:
+        """The lattice with springs of all kinds."""
+        return self.cells.complete(self.fields, self.problem.assembly)
+
+    def field(self, name: str) -> np.ndarray:
         """Return a field over the cells as it is."""
         known = [FIELD + one for one in (*NUMBERS, *STATE)]
         if name not in known:
@@ -174,26 +231,40 @@ def _fields(values: Values) -> dict[str, np.ndarray]:
 
 
 class Gradient(Mapping[str, Any]):
-    """Derivatives of a number J by name, each found when it is asked for; adjoint: K⁻ᵀ Tᵀ ∂J/∂u, (m,)."""
+    """Derivatives of a number J by name, each computed on access; adjoint: K⁻ᵀ Tᵀ ∂J/∂u, (m,)."""
 
     def __init__(self, of: Equilibrium, by_displacement: np.ndarray, adjoint: np.ndarray):
         self._of, self._by, self._adjoint = of, by_displacement, adjoint
 
+    @cached_property
+    def by_forces(self) -> np.ndarray:
+        """λ (n, 3), the derivatives by forces on the masses."""
+        return self._of.problem.expand(self._adjoint)
+
+    @cached_property
+    def _by_constants(self) -> list[np.ndarray]:
+        return self._of.complete.all_families.powers_by_constants(self._of.u, self.by_forces)
+
     def __getitem__(self, name: str) -> Any:
-        by_forces = self._of.problem.expand(self._adjoint)
+        of, name = self._of, short_name(name)
         if name == FORCES:
-            return by_forces
+            return self.by_forces
+        if name.startswith(FIELD):
+            of.field(name)
+            at = of.fields, of.complete, self._by_constants, self.by_forces
+            return of.cells.powers(name.removeprefix(FIELD), *at)
+        field = FIELD + name
+        if of.base.scaled_by(name) and field not in of.values:
+            value = getattr(of.plain.scene.material, name)
+            return float(np.sum(self[field] * of.field(field)) / value)
+        if not of.values and (weight := of.base.weight(name)) is not None:
+            return float(np.sum(self.by_forces * weight))
         with one_blas_thread():
-            if name.startswith(FIELD):
-                of = self._of
-                of.base(name)
-                at = of.fields, of.problem.assembly, of.u, by_forces
-                return of.cells.powers(name.removeprefix(FIELD), *at)
-            rows, moved = self._of.rates(name)
+            rows, moved = of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))
 
     def at_rest(self) -> Gradient:
-        """Return those of J by the free unknowns alone, where supports do not move."""
+        """Return the derivatives of J by the free unknowns alone, where supports do not move."""
         return Gradient(self._of, np.zeros_like(self._by), self._adjoint)
 
     def __iter__(self) -> Iterator[str]:
@@ -204,21 +275,19 @@ class Gradient(Mapping[str, Any]):
 
 
 def rates(
-    calibration: Calibration,
     problem: Problem,
     u: np.ndarray,
-    name: str,
-    calibrate: Calibrate | None = None,
+    both: Sides,
     values: Values = MappingProxyType({}),
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
-    force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]."""
+    force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]; both: of `both_sides`."""
     unknowns = problem.constraints.nearest(u - problem.prescribed(1.0))
-    sides, over = both_sides(calibration, problem, name, calibrate)
+    sides, over = both
     found = []
     for changed, springs in sides:
         if values:
-            changed = Equilibrium(changed, springs, u, values=values).problem
+            changed = Equilibrium(Plain(changed.scene, springs), u, values).problem
         placed = changed.expand(unknowns) + changed.prescribed(1.0)
         left = changed.residual(placed, 1.0)
         found.append((left.force, placed, left.reduced))
@@ -227,10 +296,15 @@ def rates(
 
 
 def both_sides(
-    calibration: Calibration, problem: Problem, name: str, calibrate: Calibrate | None = None
-) -> tuple[list[tuple[Problem, Calibration]], float]:
-    """Return the problem with its springs a little below and above a parameter, and how far apart."""
-    scene, name = problem.scene, name.removeprefix("material.").removeprefix("sheet.")
+    calibration: Calibration,
+    problem: Problem,
+    name: str,
+    calibrate: Calibrate | None = None,
+    share: float = 0.0,
+) -> Sides:
+    """Return the problem and springs a little below and above a parameter, and the distance between both;
+    share: of its value, for steps by that share."""
+    scene, name = problem.scene, short_name(name)
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
     else:
@@ -238,6 +312,7 @@ def both_sides(
         value, low, high = found.value, found.low, found.high
     own = name.partition(".")[2] if name.startswith(PATCH) else name
     step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
+    step = share * abs(value) or step
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
@@ -254,9 +329,8 @@ def both_sides(
 def of_changed(
     scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
 ) -> tuple[Scene, Calibration]:
-    """Return the scene with another value, and its springs: by the same method where what they are found from
-    has changed, unless `calibrate` finds them."""
-    if name.startswith(OBSTACLE):  # unchecked: what begins at one begins by so little within it
+    """Return the scene with another value, and its springs, found anew where their sources have changed."""
+    if name.startswith(OBSTACLE):  # unchecked: a sheet that begins on one is within it by so little
         fields = SceneFields.model_construct(**dict(scene))
         changed = scene.model_copy(update=dict(put(fields, name, value)))
     else:

@@ -1,16 +1,16 @@
-"""The lines of a plan grid across one side of the sheet: where they are, and what length each stands for.
+"""The lines of a plan grid across one side of the sheet: their places and tributary lengths.
 
-Of n lines on a side a, graded by γ from 0 (all cells alike) to 1 (Chebyshev's points), line i is at
+Line i of n lines on a side a, graded by γ from 0 (equal cells) to 1 (Chebyshev's points), is at
 
     x(t) = a [(1 − γ) t + ½ γ (1 − cos πt)],    t = i/(n − 1),
 
-so that of many the cells at both ends have 1 − γ of the mean width, and those in the middle 1 + (½ π − 1) γ.
-Graded towards one end only they are the lines of one half of a side twice as long: 1 − γ at that end,
-1 + (½ π − 1) γ at the other.
+so that for many lines the cells at both ends have 1 − γ of the mean width, and cells in the middle
+1 + (½ π − 1) γ. Lines graded towards one end only are the lines of one half of a side twice as long: 1 − γ at
+the fine end, 1 + (½ π − 1) γ at the other.
 
-Of a drawn sheet whose shapes have sides along the axes the lines nearest to these are moved there, and those
-between them in proportion, so that rims, slits and clamps end where cells do. Sides closer to one further out
-than a tenth of a mean cell have no line of their own; where there are too few lines for all none is moved.
+If shapes of a drawn sheet have sides along the axes, the lines nearest to the sides are moved there, and the
+lines between in proportion, so that rims, slits and clamps end where cells do. A side closer than a tenth of
+a mean cell to one further out has no line; with too few lines for all sides no line is moved.
 """
 
 from __future__ import annotations
@@ -34,7 +34,8 @@ from sheetbench.scenes.objects.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """at: (n,) [m] places of the lines from 0 on; widths: (n − 1,) [m] of the cells between; mean: [m]."""
+    """Lines across one side. at: (n,) [m] places from 0 on; widths: (n − 1,) [m] of the cells between; mean:
+    [m] width."""
 
     at: np.ndarray
     widths: np.ndarray
@@ -42,40 +43,40 @@ class Lines:
 
     @property
     def tributary(self) -> np.ndarray:
-        """Length that each line stands for, half of the cells beside it, (n,) [m]."""
+        """Tributary length of each line, half of the two adjacent cells, (n,) [m]."""
         padded = np.concatenate([[0.0], self.widths, [0.0]])
         return 0.5 * (padded[:-1] + padded[1:])
 
     def index(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The cell (…,) in which places x [m] lie, the first or last for those beyond, and how far into it
-        they are as a share of its width."""
+        """Return the cell (…,) in which each place x [m] lies, the first or last for places beyond, and the
+        place in the cell as a share of its width."""
         cell = np.clip(np.searchsorted(self.at, x, side="right") - 1, 0, len(self.widths) - 1)
         return cell, (x - self.at[cell]) / self.widths[cell]
 
     def around(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """The `count` lines nearest to the cells of places x (k,) [m], all where there are fewer, and the
-        weight of each in the polynomial through them (Lagrange's), on a line its own is 1; (k, count)."""
+        """Return the `count` lines nearest to the cells of places x (k,) [m], fewer on a grid with fewer
+        lines, and their weights in Lagrange's polynomial through them, (k, count) each."""
         count = min(count, len(self.at))
         first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(self.at) - count)
-        chosen = first[:, None] + np.arange(count)
-        places, own = self.at[chosen], np.eye(count, dtype=bool)
-        apart = np.where(own, 1.0, places[:, :, None] - places[:, None, :])
-        to_point = np.where(own, 1.0, x[:, None, None] - places[:, None, :])
-        return chosen, np.asarray((to_point / apart).prod(axis=2))
+        numbers = first[:, None] + np.arange(count)
+        places, diagonal = self.at[numbers], np.eye(count, dtype=bool)
+        between_lines = np.where(diagonal, 1.0, places[:, :, None] - places[:, None, :])
+        to_point = np.where(diagonal, 1.0, x[:, None, None] - places[:, None, :])
+        return numbers, np.asarray((to_point / between_lines).prod(axis=2))
 
 
 def grid_lines(sheet: Sheet, grid: Grid, grading: Graded = 0.0) -> tuple[Lines, Lines]:
-    """The lines across x and across y. Raises BadInput for a grading outside 0 to 1."""
+    """Return the lines across x and across y. Raises BadInput for a grading outside 0 to 1."""
     by = amount(grading)
     towards(by)
     lines = []
     for axis in (0, 1):
         ends = grading.ends(axis) if isinstance(grading, Grading) else (True, True)
-        found = _lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends)
+        side = _lines(sheet.lengths[axis], grid[axis], by if any(ends) else 0.0, ends)
         if isinstance(grading, Grading):
-            grown = sheet.lengths[axis] / grading.sides[axis]
-            found = _through(found, [grown * place for place in grading.places[axis]])
-        lines.append(found)
+            growth = sheet.lengths[axis] / grading.sides[axis]
+            side = _aligned(side, [growth * place for place in grading.places[axis]])
+        lines.append(side)
     return lines[0], lines[1]
 
 
@@ -95,8 +96,9 @@ def _lines(length: float, count: int, grading: float, ends: tuple[bool, bool]) -
     return Lines(at, 0.5 * (widths + widths[::-1]), mean)  # mirror images to the last digit
 
 
-def _through(lines: Lines, places: Sequence[float]) -> Lines:
-    """The lines with some moved to the places [m], rising, and those between in proportion."""
+def _aligned(lines: Lines, places: Sequence[float]) -> Lines:
+    """Return the lines with the nearest ones moved to the places [m], rising, and lines between in
+    proportion."""
     last, end = len(lines.at) - 1, float(lines.at[-1])
     kept = places_with_lines(places, end, last + 1)
     if not kept:

@@ -1,13 +1,12 @@
 """The spring lattice: masses on a grid of layers, links to the 3×3×2 neighbourhood, area cells.
 
 A grid (nx, ny, layers) has nx masses along x, ny along y, on lines evenly spaced or graded to the edges
-(`lumped.grid_lines`), `layers` through the thickness, lz apart; the layers lie symmetrically about the
-mid-surface z = 0. Mass (i, j, k) has number
-(j nx + i) layers + k. Every mass is linked to every neighbour in its layer (8) and in each adjacent
-layer (9): 17 links inside a two-layer lattice, 11 on an edge, 7 in a corner. Five families (Habibi et al.'s
-symbols): axial ka, diagonal kd, vertical kz, cross kdT, cross_diagonal kddT; axial and cross links
-belong to the direction, x or y, in which they run. Area springs act on every cell of each layer and,
-with the layers averaged, on every cell of the mid-surface.
+(`lumped.grid_lines`), and `layers` through the thickness at the distance lz, symmetric about the mid-surface
+z = 0. Mass (i, j, k) has the number (j nx + i) layers + k. Every mass is linked to every neighbour in its
+layer (8) and in each adjacent layer (9): 17 links inside a two-layer lattice, 11 on an edge, 7 in a corner.
+Five families (Habibi et al.'s symbols): axial ka, diagonal kd, vertical kz, cross kdT, cross_diagonal kddT;
+axial and cross links belong to the direction, x or y, in which they run. Area springs act on every cell of
+each layer and, with the layers averaged, on every cell of the mid-surface.
 
 Source: the lattice of Habibi et al., with the tributary weights and area springs of
 docs/theory.md: a link between two cells has half of each one's stiffness, so that links lying in a boundary
@@ -37,9 +36,9 @@ Weights = Literal["tributary", "full"]
 
 
 class GridLinks(NamedTuple):
-    """The links of a lattice by STEPS: nodes (m, 2) masses; offset (m, 3) [m] rest vectors from the first to
-    the second; rest_length (m,) [m]; step (m,) rows of STEPS; cells (4, m) the plan cells that each link lies
-    in or between, one as often as it counts; shares (4, m) of their stiffness."""
+    """The links of a lattice by STEPS. nodes: (m, 2) masses; offset: (m, 3) [m] rest vectors from the first
+    to the second; rest_length: (m,) [m]; step: (m,) rows of STEPS; cells: (4, m) plan cells that each link
+    lies in or between, repeated by weight; shares: (4, m) of their stiffness."""
 
     nodes: np.ndarray
     offset: np.ndarray
@@ -50,8 +49,8 @@ class GridLinks(NamedTuple):
 
 
 class Cells(NamedTuple):
-    """Cells at rest: nodes (c, 4, p), the masses whose mean each corner is, in turn; sides (c, 2, 3) [m], the
-    means of opposite ones; area (c,) [m²]."""
+    """Cells at rest. nodes: (c, 4, p) masses whose mean each corner is, in turn; sides: (c, 2, 3) [m] means
+    of opposite sides; area: (c,) [m²]."""
 
     nodes: np.ndarray
     sides: np.ndarray
@@ -59,8 +58,9 @@ class Cells(NamedTuple):
 
 
 class Faces(NamedTuple):
-    """at_rest: the faces as cells; cells, shares (4, m): the plan cells beside each and their shares; axis:
-    (m,) 0 along x, 1 along y, 2 over diagonals along x and y, 3 over the others."""
+    """Upright faces between layers. at_rest: the faces as cells; cells, shares: (4, m) plan cells next to
+    each face and their shares; axis: (m,) 0 along x, 1 along y, 2 over diagonals along x and y, 3 over the
+    other diagonals."""
 
     at_rest: Cells
     cells: np.ndarray
@@ -72,9 +72,9 @@ class Faces(NamedTuple):
 class Lattice:
     """Topology and rest geometry. lines: across x and across y; layer_distance: lz [m]; positions: (n, 3)
     [m]; mid_cells: (c, 4, layers) columns of masses at the corners in turn of the mid-surface's cells; share:
-    (n,) of each mass in the plan area, in mean cells; twisting: the edges along which nothing holds the
-    director; present: (ny − 1, nx − 1) of the cells, and the mass per area that their shares of the sheet
-    have [kg/m²], None where all are."""
+    (n,) plan area of each mass, in mean cells; twisting: edges along which nothing holds the director;
+    present: (ny − 1, nx − 1) bool, cells that the sheet covers, and per_area [kg/m²] their mass per area,
+    None where all are present."""
 
     grid: Grid
     lines: tuple[Lines, Lines]
@@ -89,15 +89,15 @@ class Lattice:
 
     @cached_property
     def kept(self) -> np.ndarray | slice:
-        """The cells present among all, as an index of their numbers."""
+        """Index of the present cells among all."""
         return slice(None) if self.present is None else np.flatnonzero(self.present)
 
     @cached_property
     def absent_masses(self) -> np.ndarray:
-        """The masses of no cell, (k,)."""
-        there = np.zeros(self.mass_count, dtype=bool)
-        there[self.mid_cells] = True
-        return np.flatnonzero(~there)
+        """Numbers of the masses that belong to no cell, (k,)."""
+        present = np.zeros(self.mass_count, dtype=bool)
+        present[self.mid_cells] = True
+        return np.flatnonzero(~present)
 
     @cached_property
     def faces(self) -> Faces:
@@ -136,7 +136,7 @@ class Lattice:
 
     @cached_property
     def cell_areas(self) -> np.ndarray:
-        """Plan areas of the cells, (ny − 1, nx − 1) [m²], of absent ones none."""
+        """Plan areas of the cells, (ny − 1, nx − 1) [m²], 0 of absent ones."""
         x, y = self.lines
         areas = np.outer(y.widths, x.widths)
         return frozen(areas if self.present is None else areas * self.present)
@@ -147,40 +147,48 @@ class Lattice:
         return self.columns(), self.positions, self.cell_areas
 
     def columns(self) -> np.ndarray:
-        """Mass numbers by plan position, (ny, nx, layers)."""
+        """Return the numbers of the masses by plan position, (ny, nx, layers)."""
         nx, ny, layers = self.grid
         return np.arange(nx * ny * layers).reshape(ny, nx, layers)
 
     def links_of(self, nodes: np.ndarray) -> np.ndarray | slice:
-        """Return which of the lattice's links have these nodes (m, 2), in the order of the lattice's."""
+        """Return the index, among the lattice's links, of links with the nodes (m, 2), given in the lattice's
+        order."""
         if len(nodes) == len(self.links.nodes):
             return slice(None)
-        every, own = (ends @ [self.mass_count, 1] for ends in (self.links.nodes, nodes))
-        return np.isin(every, own)
+        all_keys, keys = (ends @ [self.mass_count, 1] for ends in (self.links.nodes, nodes))
+        return np.isin(all_keys, keys)
 
     def edge_columns(self, edge: str) -> np.ndarray:
-        """Mass numbers along an edge in the direction of its axis, (m, layers)."""
+        """Return the numbers of the masses along an edge in the direction of its axis, (m, layers)."""
         columns = self.columns()
         return {"x0": columns[:, 0], "x1": columns[:, -1], "y0": columns[0], "y1": columns[-1]}[edge]
 
 
-# family, direction, step in the grid; of each pair of opposite steps one is listed.
-STEPS: tuple[tuple[str, str, tuple[int, int, int]], ...] = (
-    ("axial", "x", (1, 0, 0)),
-    ("axial", "y", (0, 1, 0)),
-    ("diagonal", "", (1, 1, 0)),
-    ("diagonal", "", (-1, 1, 0)),
-    ("vertical", "", (0, 0, 1)),
-    ("cross", "x", (1, 0, 1)),
-    ("cross", "x", (-1, 0, 1)),
-    ("cross", "y", (0, 1, 1)),
-    ("cross", "y", (0, -1, 1)),
-    ("cross_diagonal", "", (1, 1, 1)),
-    ("cross_diagonal", "", (-1, 1, 1)),
-    ("cross_diagonal", "", (1, -1, 1)),
-    ("cross_diagonal", "", (-1, -1, 1)),
+class LinkKind(NamedTuple):
+    """A kind of link by the step from its first mass to its second, along x, along y and in layers."""
+
+    family: str
+    direction: str
+    step: tuple[int, int, int]
+
+
+STEPS = (  # one of each pair of opposite steps
+    LinkKind("axial", "x", (1, 0, 0)),
+    LinkKind("axial", "y", (0, 1, 0)),
+    LinkKind("diagonal", "", (1, 1, 0)),
+    LinkKind("diagonal", "", (-1, 1, 0)),
+    LinkKind("vertical", "", (0, 0, 1)),
+    LinkKind("cross", "x", (1, 0, 1)),
+    LinkKind("cross", "x", (-1, 0, 1)),
+    LinkKind("cross", "y", (0, 1, 1)),
+    LinkKind("cross", "y", (0, -1, 1)),
+    LinkKind("cross_diagonal", "", (1, 1, 1)),
+    LinkKind("cross_diagonal", "", (-1, 1, 1)),
+    LinkKind("cross_diagonal", "", (1, -1, 1)),
+    LinkKind("cross_diagonal", "", (-1, -1, 1)),
 )
-DIRECTIONS = np.array([step for *_, step in STEPS])
+DIRECTIONS = np.array([kind.step for kind in STEPS])
 
 
 @cached(last=16, most=SHARED_UP_TO, size=lambda sheet, grid, *_, **__: math.prod(grid))
@@ -193,13 +201,13 @@ def build(
     grading: Graded = 0.0,
     per_area: np.ndarray | None = None,
 ) -> Lattice:
-    """The lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
-    mass the same share, as Habibi et al. have them. grading: of the grid's lines (`lumped.grid_lines`).
-    per_area: of the cells (ny − 1, nx − 1) [kg/m²], where some are not there and have none.
+    """Return the lattice of a sheet. `weights="full"` gives every link its family's full stiffness and every
+    mass an equal share (Habibi et al.). grading: of the grid's lines (`lumped.grid_lines`). per_area: of the
+    cells (ny − 1, nx − 1) [kg/m²], 0 of absent cells, None where all are present.
 
     Raises BadInput for fewer than two masses a side or two layers, a grading outside 0 to 1, and full weights
-    on a graded grid. A small lattice is the same object every time: its arrays are not to
-    be written to, and read-only where no kernel takes them (numba has another type for those).
+    on a graded grid. A small lattice is cached: its arrays must not be written to, and are read-only where no
+    kernel takes them (read-only arrays are another type for numba).
     """
     nx, ny, layers = grid
     if min(grid) < 2:
@@ -215,8 +223,8 @@ def build(
     nodes, step, cells, shares = _links(grid)
     if present is not None:
         shares = shares * present.ravel()[cells]
-    there = shares.any(axis=0)
-    nodes, step, cells, shares = nodes[there], step[there], cells[:, there], shares[:, there]
+    on_sheet = shares.any(axis=0)
+    nodes, step, cells, shares = nodes[on_sheet], step[on_sheet], cells[:, on_sheet], shares[:, on_sheet]
     if weights == "full":
         shares = shares / shares.sum(axis=0)
     row, column = (np.minimum(*of[nodes.T]).clip(max=cells - 2) for of, cells in ((j, ny), (i, nx)))
@@ -248,21 +256,21 @@ def build(
 
 @cached(last=16, most=SHARED_UP_TO, size=math.prod)
 def _links(grid: Grid) -> tuple[np.ndarray, ...]:
-    """The nodes, steps, cells and shares, as `GridLinks` has them, of the links on a grid without holes; a
-    cell beyond the sheet has no share."""
+    """Return nodes, step, cells and shares (see `GridLinks`) of the links on a grid without holes; a cell
+    beyond the sheet has no share."""
     nx, ny, layers = grid
     j, i, k = np.indices((ny, nx, layers)).reshape(3, -1)
-    found = []
+    parts = []
     for number, (di, dj, dk) in enumerate(DIRECTIONS.tolist()):
         inside = (i + di >= 0) & (i + di < nx) & (j + dj >= 0) & (j + dj < ny) & (k + dk < layers)
         first = np.flatnonzero(inside)
         nodes = np.stack([first, first + (dj * nx + di) * layers + dk], axis=1)
-        # along x and along y the cell that the link crosses, twice, or the two beside its line
+        # along x and along y the crossed cell twice, or the two cells next to the link's line
         column, row = i[first] + min(di, 0), j[first] + min(dj, 0)
         columns = np.stack(2 * [column - (di == 0), column])
         rows = np.repeat([row - (dj == 0), row], 2, axis=0)
-        there = (columns >= 0) & (columns < nx - 1) & (rows >= 0) & (rows < ny - 1)
-        cells = np.where(there, rows * (nx - 1) + columns, 0)
-        found.append((nodes.T, np.full(len(first), number), cells, 0.25 * there))
-    nodes, *others = (np.concatenate(part, axis=-1) for part in zip(*found, strict=True))
+        on_sheet = (columns >= 0) & (columns < nx - 1) & (rows >= 0) & (rows < ny - 1)
+        cells = np.where(on_sheet, rows * (nx - 1) + columns, 0)
+        parts.append((nodes.T, np.full(len(first), number), cells, 0.25 * on_sheet))
+    nodes, *others = (np.concatenate(arrays, axis=-1) for arrays in zip(*parts, strict=True))
     return nodes.T, *others

@@ -1,7 +1,7 @@
-"""A lattice about an equilibrium, linear: M q̈ + C q̇ + K q = F w + F′ ẇ, y = G q + H w.
+"""A lattice linearised about an equilibrium: M q̈ + C q̇ + K q = F w + F′ ẇ, y = G q + H w.
 
-q are the free unknowns, of which chains leave those motions that their constraints allow; w the inputs, small
-changes of what acts:
+q are the free unknowns, restricted to motions that the chains' constraints allow; w the inputs, small changes
+of loads and commands:
 
     load N, gravity     as a share of the load [-]
     PROBE fx, fy, fz    a force at a probe [N]
@@ -9,15 +9,16 @@ changes of what acts:
     natural.kxx, …      of the sheet's natural curvature, or of a patch's, a muscle's [1/m]
     EDGE x, y, z        of a held edge's place [m]; it reaches the sheet by springs and dampers, F and F′
 
-M holds the masses that move in `lumped.simulate`, which `lumped.modes` has as "gregory".
-y are the displacements of the probes [m]. With K symmetric the modes φ of K φ = ω² M φ, φᵀ M φ = 1, give the
+M is the mass matrix of `lumped.simulate`, "gregory" in `lumped.modes`.
+y are the displacements of the probes [m]. K is symmetric; the modes φ of K φ = ω² M φ, φᵀ M φ = 1, give the
 state space of the states (ω η, η̇), which is as well scaled as the sheet is:
 
     ẋ = A x + B w,   y = C x + D w,   A = [0, Ω; −Ω, −φᵀ C φ]
 
-With n modes instead of all, D holds what those left out do at rest: slow inputs are answered exactly. F′ ẇ is
-taken into x itself, x − (0, φᵀ F′) w being the state. `lumped.state_space` reduces it further. Source: e.g.
-Craig and Kurdila, Fundamentals of Structural Dynamics, 2006, on modal truncation with static correction.
+For n modes instead of all, D contains the static response of the modes left out: slow inputs are answered
+exactly. F′ ẇ is taken into the state, which is x − (0, φᵀ F′) w. `lumped.state_space` reduces it further.
+Source: e.g. Craig and Kurdila, Fundamentals of Structural Dynamics, 2006, on modal truncation with static
+correction.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from scipy.sparse.linalg import splu
 
 from lumped.calibration import Calibration, default
 from lumped.dynamics.system import System
-from lumped.gradient import rates
+from lumped.gradient import both_sides, rates
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.state_space import StateSpace
@@ -58,13 +59,28 @@ from sheetbench.scenes import (
 from sheetbench.scenes.objects.supports import named
 
 MODES = 20  # of the state space unless requested
-LAST = 1e9  # s: when every history has its last value, as in statics
+LAST = 1e9  # s: every history has its last value, as in statics
 
 
 @dataclass(frozen=True, eq=False)
 class Linear:
-    """mass, damping, stiffness: sparse (m, m); force, force_rate: F, F′ (m, inputs); output, direct: G
-    (outputs, m), H (outputs, inputs); displacement (n, 3) [m] of the masses at the equilibrium."""
+    """A lattice linearised about an equilibrium, M q̈ + C q̇ + K q = F w + F′ ẇ, y = G q + H w.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : sparse array of shape (m, m)
+        Matrices M, C and K of the free unknowns [kg, N·s/m, N/m].
+    force, force_rate : ndarray of shape (m, inputs)
+        Forces F and F′ [N, N·s, per unit of the input].
+    output : ndarray of shape (outputs, m)
+        Matrix G [-].
+    direct : ndarray of shape (outputs, inputs)
+        Matrix H [m per unit of the input].
+    inputs, outputs : tuple of str
+        Names of inputs and outputs.
+    displacement : ndarray of shape (n, 3)
+        Displacement [m] of the masses at the equilibrium.
+    """
 
     mass: sp.csc_array
     damping: sp.csc_array
@@ -79,13 +95,14 @@ class Linear:
 
     @cached_property
     def jacobian(self) -> np.ndarray:
-        """dy/dw at rest, (outputs, inputs): one adjoint solve an output, Kᵀ a = Gᵀ."""
+        """Static response dy/dw, (outputs, inputs): one adjoint solve an output, Kᵀ a = Gᵀ."""
         adjoint = splu(sp.csc_array(self.stiffness.T)).solve(self.output.T)
-        found: np.ndarray = adjoint.T @ self.force + self.direct
-        return found
+        response: np.ndarray = adjoint.T @ self.force + self.direct
+        return response
 
     def state_space(self, modes: int | None = MODES) -> StateSpace:
-        """Of the lowest modes, or of all for None. Raises BadInput for more than there are."""
+        """Return the state space of the lowest modes, of all for None. Raises BadInput for more modes than
+        the lattice has."""
         size = self.mass.shape[0]
         count = size if modes is None else modes
         if not 1 <= count <= size:
@@ -104,7 +121,7 @@ class Linear:
         return StateSpace(a, b, c, d, omega / (2.0 * np.pi))
 
     def _lowest(self, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """ω² (count,) [1/s²] and shapes (m, count) of the lowest modes. Raises BadInput where K is not
+        """Return ω² (count,) [1/s²] and shapes (m, count) of the lowest modes. Raises BadInput if K is not
         positive definite."""
         with suppress(SingularMatrixError):
             squares, shapes = lowest_modes(self.stiffness, self.mass, count)
@@ -114,12 +131,36 @@ class Linear:
 
 
 def linearise(scene: AnyScene, calibration: Calibration | None = None, about: About = "deformed") -> Linear:
-    """The lattice of a scene, linear about its equilibrium, or about the flat sheet without loads.
+    """Return the lattice of a scene, linearised about its equilibrium or about the flat sheet.
 
-    Raises BadInput for loads that follow the sheet, whose matrices are not symmetric, for a flat sheet with
-    actuators, and NoEquilibrium where there is none to be about.
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        Scene, the name of one in the catalogue, or the path of its file.
+    calibration : Calibration, optional
+        Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
+    about : {"deformed", "flat"}, default "deformed"
+        State: the equilibrium under the scene's loads, or the flat sheet without loads.
+
+    Returns
+    -------
+    Linear
+        Matrices of the free unknowns, inputs (loads [-], forces at probes [N], curvatures [1/m], places of
+        held edges [m]) and outputs (displacements of the probes [m]).
+
+    Raises
+    ------
+    BadInput
+        If loads follow the sheet or springs have a per-direction law, whose matrices are not symmetric, or a
+        flat sheet has actuators.
+    NoEquilibrium
+        If there is no stable equilibrium.
+
+    Notes
+    -----
+    Modal truncation with static correction: Craig and Kurdila, Fundamentals of Structural Dynamics (2006).
     """
-    scene = _at_last(scene_of(scene))
+    scene = _last_commands(scene_of(scene))
     require_static(scene, "a linear system about the flat sheet" if about == "flat" else "")
     require_no_branches(scene.material, "a linear system")
     calibration = calibration or default(scene)
@@ -135,42 +176,42 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     else:
         u = stable_equilibrium(problem).u
     system = System(scene, problem)
-    motions = _allowed(system, u)
+    motions = _allowed_motions(system, u)
     rest = np.zeros_like(u)
 
-    def sparse(mass: float, damping: float, stiffness: float) -> tuple[sp.csr_array, sp.csc_array]:
+    def reduced(mass: float, damping: float, stiffness: float) -> tuple[sp.csr_array, sp.csc_array]:
         blocks = system.matrix(u, rest, LAST, mass, damping, stiffness)
         pattern = problem.assembly.pattern
-        whole = sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr)))
-        return whole, sp.csc_array(motions.T @ whole @ motions)
+        full = sp.csr_array(sp.bsr_array((blocks, pattern.indices, pattern.indptr)))
+        return full, sp.csc_array(motions.T @ full @ motions)
 
-    (_, mass), (drag, damping), (spring, stiffness) = (sparse(*one) for one in np.eye(3).tolist())
+    (_, mass), (drag, damping), (spring, stiffness) = (reduced(*factors) for factors in np.eye(3).tolist())
     probes = MidSurface(problem.assembly.lattice, scene.probe_points())
     outputs = [(name, axis) for name in scene.probes for axis in range(3)]
-    picked = probes.matrix(len(u)).toarray()
-    inputs, forces, rates_of, placed = _inputs(calibration, problem, u, picked, spring, drag)
+    observation = probes.matrix(len(u)).toarray()
+    inputs, forces, rate_forces, displacements = _inputs(calibration, problem, u, observation, spring, drag)
     return Linear(
         mass=mass,
         damping=damping,
         stiffness=sp.csc_array(0.5 * (stiffness + stiffness.T)),
         force=motions.T @ forces,
-        force_rate=motions.T @ rates_of,
-        output=np.asarray(picked @ motions),
-        direct=picked @ placed,
+        force_rate=motions.T @ rate_forces,
+        output=np.asarray(observation @ motions),
+        direct=observation @ displacements,
         inputs=inputs,
         outputs=tuple(f"{name} u{'xyz'[axis]}" for name, axis in outputs),
         displacement=u[: problem.assembly.lattice.mass_count],
     )
 
 
-def _allowed(system: System, u: np.ndarray) -> sp.csr_array:
-    """T on the motions that the actuators' constraints allow: their gradient's null space."""
+def _allowed_motions(system: System, u: np.ndarray) -> sp.csr_array:
+    """Return T on the motions that the actuators' constraints allow, the null space of their gradient."""
     if not system.constrained or system.coupling is None:
         return system.moving_part
-    own = system.coupling.constraint_gradient(u)
-    gradient = np.zeros((len(own), *u.shape))
-    gradient[:, system.coupling.masses :] = own
-    dense = gradient.reshape(len(own), -1) @ system.moving_part
+    of_actuators = system.coupling.constraint_gradient(u)
+    gradient = np.zeros((len(of_actuators), *u.shape))
+    gradient[:, system.coupling.masses :] = of_actuators
+    dense = gradient.reshape(len(gradient), -1) @ system.moving_part
     bound = np.flatnonzero(np.abs(dense).any(axis=0))
     free = np.setdiff1d(np.arange(dense.shape[1]), bound)
     kernel = scipy.linalg.null_space(dense[:, bound])
@@ -184,41 +225,43 @@ def _inputs(
     calibration: Calibration,
     problem: Problem,
     u: np.ndarray,
-    picked: np.ndarray,
+    observation: np.ndarray,
     spring: sp.csr_array,
     drag: sp.csr_array,
 ) -> tuple[tuple[str, ...], np.ndarray, np.ndarray, np.ndarray]:
-    """Names; force, force by rate, and place g per input, (3 size, inputs) each."""
+    """Return the inputs' names, and force, force by rate and prescribed displacement g, (3 size, inputs)
+    each; observation: (outputs, 3 size) map of displacements to the probes."""
     scene = problem.scene
     columns: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]] = []
-    nothing = np.zeros(u.size)
+    zero = np.zeros(u.size)
     for name, part in _loads(scene):
-        columns.append((name, Loads(part, problem.assembly).force(u).ravel(), nothing, nothing))
-    for number, row in enumerate(picked):
+        columns.append((name, Loads(part, problem.assembly).force(u).ravel(), zero, zero))
+    for number, row in enumerate(observation):
         probe = list(scene.probes)[number // 3]
-        columns.append((f"{probe} f{'xyz'[number % 3]}", row, nothing, nothing))
-    for edge in _bent(scene):
-        force, moved, _ = rates(calibration, problem, u, f"curvature_{edge}")
-        columns.append((f"{edge} curvature", force.ravel(), -drag @ moved.ravel(), moved.ravel()))
+        columns.append((f"{probe} f{'xyz'[number % 3]}", row, zero, zero))
+    for edge in _bent_edges(scene):
+        both = both_sides(calibration, problem, f"curvature_{edge}")
+        force, g, _ = rates(problem, u, both)
+        columns.append((f"{edge} curvature", force.ravel(), -drag @ g.ravel(), g.ravel()))
     for name, support in named(scene.supports).items():
         rows, axes = problem.constraints.holders[name]
         for axis in () if isinstance(support, Symmetric) else axes:
-            place, row = np.zeros_like(u), rows.ravel()
+            unit, row = np.zeros_like(u), rows.ravel()
             free = ~problem.constraints.fixed[row, axis]
-            place[row if axis in tilt_axes(support) else row[free], axis] = 1.0
-            moved = place.ravel()
-            columns.append((f"{name} {'xyz'[axis]}", -spring @ moved, -drag @ moved, moved))
+            unit[row if axis in tilt_axes(support) else row[free], axis] = 1.0
+            g = unit.ravel()
+            columns.append((f"{name} {'xyz'[axis]}", -spring @ g, -drag @ g, g))
     bent = [of for of in scene.natural_states if of != "temperature"]
     for name in (f"{of}.{key}" for of in bent for key in ("kxx", "kyy", "kxy")):
-        pull, *_ = rates(calibration, problem, u, name)
-        columns.append((name, pull.ravel(), nothing, nothing))
+        pull, *_ = rates(problem, u, both_sides(calibration, problem, name))
+        columns.append((name, pull.ravel(), zero, zero))
     names, *values = zip(*columns, strict=True)
-    force, rate, place = (np.stack(value, axis=1) for value in values)
-    return tuple(names), force, rate, place
+    force, rate, displacement = (np.stack(value, axis=1) for value in values)
+    return tuple(names), force, rate, displacement
 
 
-def _at_last(scene: Scene) -> Scene:
-    """The scene with the last values of its chains' commands."""
+def _last_commands(scene: Scene) -> Scene:
+    """Return the scene with the last values of its chains' commands."""
     at_last = [
         a.replace(curvature=a.curvature.value[-1])
         if isinstance(a, Chain) and hasattr(a.curvature, "value")
@@ -229,16 +272,16 @@ def _at_last(scene: Scene) -> Scene:
 
 
 def _loads(scene: Scene) -> list[tuple[str, Scene]]:
-    """Every load alone, by name."""
+    """Return scenes with a single load each, by the load's name."""
     bare = scene.replace(gravity=None, loads=())
-    found = [(f"load {n}", bare.replace(loads=(load,))) for n, load in enumerate(scene.loads, start=1)]
+    scenes = [(f"load {n}", bare.replace(loads=(load,))) for n, load in enumerate(scene.loads, start=1)]
     if scene.gravity is not None:
-        found.append(("gravity", bare.replace(gravity=scene.gravity)))
-    return found
+        scenes.append(("gravity", bare.replace(gravity=scene.gravity)))
+    return scenes
 
 
-def _bent(scene: Scene) -> list[str]:
-    """Edges with one chain of one curvature, or bent by a support."""
+def _bent_edges(scene: Scene) -> list[str]:
+    """Return the edges with one chain of one curvature, or bent by a support."""
     edges = [str(a.edge) for a in scene.actuators]
     chains = [str(a.edge) for a in scene.actuators if isinstance(a, Chain) and isinstance(a.curvature, float)]
     bent = [str(s.edge) for s in scene.supports if isinstance(s, Curved)]

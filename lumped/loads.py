@@ -1,14 +1,14 @@
 """Loads on the masses: dead forces, follower pressure and follower edge moment, with their tangents.
 
-gravity        mass × acceleration, tributary masses; those that move of a sheet that nothing holds
+gravity        mass × acceleration, tributary masses; inertial masses of a sheet without supports
 point          shared bilinearly among the columns of its cell, equally among the layers
 edge force     per undeformed length, by tributary lengths, equally among the layers
 edge moment    per undeformed length: a couple F = ±M (t × D)/|D|² on the outer layers of each column, D the
                vector between them, t the current edge tangent (central difference of the neighbours' mean)
 pressure       along the normal of every mid-surface cell, per current area (`lumped.pressure`)
 
-A load's `history` multiplies it by its factor at a time; statics take the last. A factor on a dead load makes
-its work depend on the path in time: only constant dead loads have a potential.
+A load's `history` multiplies it by its factor at a time; statics use the last factor. A factor on a dead load
+makes its work depend on the path in time: only constant dead loads have a potential.
 
 Follower loads have unsymmetric tangents, all but pressure on a sheet whose edges sweep no area
 (`scenes.encloses_volume`), which has a potential; see e.g. Schweizerhof and Ramm (1984).
@@ -45,8 +45,8 @@ from sheetbench.scenes.meaning.region import edge_parts
 class LoadPart:
     """Loads that share a history, if they have one.
 
-    dead: (n, 3) [N]; pressure: (cells,) [Pa] of those present, by their shares under it; columns, moments: of
-    edges, (e, 3, p) and (e,) [N·m], as `lumped.pressure.add_couples` has them.
+    dead: (n, 3) [N]; pressure: (cells,) [Pa] times the share of each present cell under it; columns, moments:
+    of edges, (e, 3, p) and (e,) [N·m] (see `lumped.pressure.add_couples`).
     """
 
     history: PiecewiseCurve | None
@@ -56,17 +56,17 @@ class LoadPart:
     moments: np.ndarray
 
     def factor(self, time: float | None) -> float:
-        """The history's factor at a time [s]; the last one without a time."""
+        """Return the history's factor at a time [s]; the last one without a time."""
         return 1.0 if self.history is None else float(self.history.at(time))
 
 
 class Loads:
     """The external forces of a scene at load factor 1; every load scales with the load factor.
 
-    dead: (n, 3) [N], of the dead loads without a history; last_dead, pressure: of all in the end, (n, 3) [N]
-    and (cells,) [Pa]; follow: whether some loads follow the sheet, turning: edge moments; conservative:
-    whether all have a potential at a given time; potential: whether `dead` is all there is.
-    """
+    dead: (n, 3) [N] dead loads without a history; last_dead, pressure: (n, 3) [N] and (cells,) [Pa] of all
+    loads with their last factors; follow: whether some loads follow the sheet; turning: whether there are
+    edge moments; conservative: whether all have a potential at a given time; potential: whether `dead` is the
+    only load."""
 
     def __init__(self, scene: Scene, assembly: Assembly):
         self._assembly = assembly
@@ -77,8 +77,8 @@ class Loads:
             acceleration = np.array(scene.gravity.acceleration)
             dead = self._part(scene.gravity.history).dead
             held = scene.supports or any(getattr(a, "base", "held") != "free" for a in scene.actuators)
-            weighed = masses(scene, lattice, "tributary" if held else assembly.inertia, assembly.cells)
-            dead[: lattice.mass_count] += weighed[:, None] * acceleration
+            weight = masses(scene, lattice, "tributary" if held else assembly.inertia, assembly.cells)
+            dead[: lattice.mass_count] += weight[:, None] * acceleration
             if assembly.coupling is not None:
                 dead[lattice.mass_count :] += assembly.coupling.weight(acceleration)
         for load in scene.loads:
@@ -96,8 +96,8 @@ class Loads:
                     along = np.eye(3)[EDGES[load.edge].along_axis]
                     turn = np.cross(EDGES[load.edge].outward, [0.0, 0.0, 1.0]) @ along
                     at = np.arange(len(edge))
-                    around = edge[np.maximum(at - 1, 0)], edge[np.minimum(at + 1, len(edge) - 1)]
-                    part.columns = np.append(part.columns, np.stack([edge, *around], axis=1), axis=0)
+                    neighbours = edge[np.maximum(at - 1, 0)], edge[np.minimum(at + 1, len(edge) - 1)]
+                    part.columns = np.append(part.columns, np.stack([edge, *neighbours], axis=1), axis=0)
                     part.moments = np.append(part.moments, turn * length * load.moment_per_length)
             elif isinstance(load, AreaLoad):
                 area = areas_of_masses(scene, lattice, load.where)
@@ -106,8 +106,8 @@ class Loads:
                 part.pressure += load.value * cell_shares(scene, lattice, load.where)
         last = [(part.factor(None), part) for part in self._parts.values()]
         self.pressure = sum(factor * part.pressure for factor, part in last)
-        others = [factor * part.dead for factor, part in last[1:]]
-        self.last_dead = np.sum([self.dead, *others], axis=0) if others else self.dead
+        with_history = [factor * part.dead for factor, part in last[1:]]
+        self.last_dead = np.sum([self.dead, *with_history], axis=0) if with_history else self.dead
         self.turning = any(len(part.moments) for _, part in last)
         self.follow = self.turning or any(part.pressure.any() for _, part in last)
         enclosed = self.follow and encloses_volume(scene.supports) and not scene.shaped_by
@@ -117,11 +117,11 @@ class Loads:
 
     @property
     def parts(self) -> tuple[LoadPart, ...]:
-        """Loads by history, those without one first."""
+        """Loads by history, first the loads without one."""
         return tuple(self._parts.values())
 
     def _part(self, history: FactorTable | None) -> LoadPart:
-        """The part with this history, made when it is first requested."""
+        """Return the part with a history, created at its first use."""
         if history not in self._parts:
             course = None if history is None else PiecewiseCurve(history.time, history.factor)
             lattice = self._assembly.lattice
@@ -138,22 +138,23 @@ class Loads:
         return columns, moments, np.sum([by * part.pressure for by, part in scaled], axis=0)
 
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
-        """External force (n, 3) [N] on the masses displaced by u, at a time [s]; without a time, as statics
-        have it: with the last factor of every history. Not to be written to."""
+        """Return the external force (n, 3) [N] at a displacement u (n, 3) [m] and a time [s]; without a time
+        (statics) with the last factor of every history. The array must not be written to."""
         force = self.last_dead
         if time is not None and not self.potential:
             force = np.sum([part.factor(time) * part.dead for part in self._parts.values()], axis=0)
         return force + self.followers(u, time) if self.follow else force
 
     def work(self, u: np.ndarray) -> float:
-        """Work [J] of conservative loads from the flat sheet to u (n, 3) [m]: of a pressure Σ z F_z."""
-        pressing = self.followers(u)
+        """Return the work [J] of conservative loads from the flat sheet to u (n, 3) [m], Σ z F_z of a
+        pressure."""
+        pressure = self.followers(u)
         masses = self._assembly.lattice.mass_count
         heights = self._assembly.lattice.positions[:, 2] + u[:masses, 2]
-        return float(np.sum((self.force(u) - pressing) * u) + heights @ pressing[:masses, 2])
+        return float(np.sum((self.force(u) - pressure) * u) + heights @ pressure[:masses, 2])
 
     def followers(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
-        """The part (n, 3) [N] of the force that follows the sheet."""
+        """Return the part (n, 3) [N] of the force that follows the sheet."""
         force = np.zeros_like(self.dead)
         if not self.follow:
             return force
@@ -192,15 +193,15 @@ class Loads:
         by_director = scale * _spin(tangent) - by_size
         projector = (np.eye(3) - tangent[:, :, None] * tangent[:, None, :]) / length[:, None, None]
         by_chord = -scale * _spin(director) @ projector / columns.shape[2]
-        moved = np.column_stack([top, bottom, after, before])  # masses by which the couple changes, and how
+        sources = np.column_stack([top, bottom, after, before])  # masses that the couple depends on
         layers = columns.shape[2]
         by = np.stack([by_director, -by_director, *layers * [by_chord], *layers * [-by_chord]], axis=1)
         for row, sign in ((top, -1.0), (bottom, 1.0)):
-            np.add.at(blocks, self._assembly.pattern.slots(row[:, None], moved), sign * by)
+            np.add.at(blocks, self._assembly.pattern.slots(row[:, None], sources), sign * by)
 
 
 def _lengths(scene: Scene, lattice: Lattice, load: EdgeLoad) -> np.ndarray:
-    """What length of a load's edge each of its masses stands for, (m,) [m]."""
+    """Return the length of a load's edge that each of its masses represents, (m,) [m]."""
     lines = lattice.lines[EDGES[load.edge].along_axis]
     if not scene.pierced and load.where is None:
         return lines.tributary
@@ -214,7 +215,7 @@ def _lengths(scene: Scene, lattice: Lattice, load: EdgeLoad) -> np.ndarray:
 
 
 def _spin(v: np.ndarray) -> np.ndarray:
-    """[v]× of vectors (n, 3): (n, 3, 3)."""
+    """Return [v]× of vectors (n, 3), (n, 3, 3)."""
     out = np.zeros((len(v), 3, 3))
     out[:, 0, 1], out[:, 0, 2] = -v[:, 2], v[:, 1]
     out[:, 1, 0], out[:, 1, 2] = v[:, 2], -v[:, 0]

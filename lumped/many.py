@@ -1,9 +1,9 @@
 """Equilibria of many designs of one lattice, side by side on all cores.
 
 Designs of moduli and forces on springs of the linear laws start at the scene's own equilibrium, and go on in
-one compiled loop that holds no lock: a tangent of their own springs, then steps with the same factors as long
-as each takes nine tenths off the residual, and the tangent where they end, which is to be positive definite.
-Whatever does not end so, and other designs, follow the load path (`Differentiable.path`).
+one compiled loop that holds no lock: steps with its factors, near the end with the factors of their own
+tangent, which has to be positive definite, made again where a step takes less than nine tenths off. Designs
+that do not end so, and others, follow the load path (`Differentiable.path`).
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from sheetbench.scenes import AnyScene
 
 TOLERANCE = 1e-11  # of a residual, relative to the loads
 STEPS = 30
+NEAR = 1e-3  # of the loads, the residual from which on a design has a tangent of its own
 YOUNG = FIELD + "young"
 
 
@@ -121,16 +122,19 @@ def _solve(
     ]
     forces = np.asarray(designs.get(FORCES, np.zeros((len(out), *start.shape))), dtype=float)[part]
     loads = np.ascontiguousarray(forces + problem.loads.last_dead)
-    assert problem.system.band is not None
-    springs = problem.assembly.all_families.springs
-    free = problem.constraints.transform_arrays
-    given = start, springs, k, *of_cells, loads, free, problem.system.band, all_families.NO_STRESSES
-    correct(*given, out[part], done[part])
+    band, assembly = problem.system.band, problem.assembly
+    assert band is not None
+    springs = assembly.all_families.springs
+    rounding = assembly.rounding * assembly.all_families.link_stiffness_norm * float(factor.max(initial=1.0))
+    of_start, _ = banded.factored(problem.tangent(start, 1.0), band)
+    given = start, of_start, springs, k, *of_cells, loads, problem.constraints.transform_arrays, band
+    correct(*given, rounding, all_families.NO_STRESSES, out[part], done[part])
 
 
 @njit
 def correct(
     start: np.ndarray,
+    of_start: np.ndarray,
     springs: SpringArrays,
     k: np.ndarray,
     layers: np.ndarray,
@@ -138,13 +142,15 @@ def correct(
     loads: np.ndarray,
     free: Rows,
     band: Band,
+    rounding: float,
     none: Stresses,
     out: np.ndarray,
     done: np.ndarray,
 ) -> None:
     """Set displacements (designs, n, 3) [m] in equilibrium under loads (designs, n, 3) [N] with links of
     stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), sought from
-    `start`, and which are found."""
+    `start` with its factors, then with their own, and which are found; rounding [N/m]: of forces, over the
+    displacement."""
     n = len(band.order)
     a, b, c = springs.links, springs.layers, springs.middle
     for d in range(len(k)):
@@ -157,18 +163,23 @@ def correct(
             springs.mirror,
             springs.diagonal,
         )
-        u, last, size, fresh = start.copy(), np.inf, np.sqrt(np.sum(loads[d] ** 2)), True
-        factors = empty((1, 1))
+        u, last, size = start.copy(), np.inf, np.sqrt(np.sum(loads[d] ** 2))
+        factors, own_ones, fresh = of_start, False, False
         for _ in range(STEPS):
             rows = transposed_product(free, (loads[d] - all_families.force(u, own)[1]).ravel(), n)
             left = np.sqrt(np.sum(rows * rows))
-            ended = left <= TOLERANCE * size and not fresh
-            if ended or fresh or not left <= 0.1 * last:
+            ended = left <= max(TOLERANCE * size, rounding * np.abs(u).max())
+            slow = not fresh and not left <= (0.1 if own_ones else 0.5) * last
+            if slow or (not own_ones and left <= NEAR * size) or (ended and not own_ones):
                 blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), own)
                 factors = banded.stored(blocks, band)
-                definite = banded.factor(factors, n, band.width)
-                if ended or not definite:  # stable where the tangent there says so
-                    out[d], done[d] = u, definite
+                if not banded.factor(factors, n, band.width):
                     break
-            last, fresh = left, False
+                own_ones = fresh = True
+            else:
+                fresh = False
+            if ended:  # stable, as the tangent nearest to it says
+                out[d], done[d] = u, True
+                break
+            last = left
             u += product(free, banded.solve_unrefined(factors, band.width, band.order, rows)).reshape(u.shape)

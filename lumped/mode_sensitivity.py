@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient, both_sides
+from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
@@ -41,7 +41,7 @@ class ModeGradient(Mapping[str, Any]):
         problem, u, shape, none = of.problem, of.u, of.problem.expand(mode), np.zeros_like(of.u)
         step = SMALL * problem.scene.sheet.thickness / np.abs(shape).max()
         ends = [(u + end * shape, 1.0 / (2.0 * end)) for end in (step, -step)]
-        sides = (Equilibrium(of.plain, of.calibration, at, of.calibrate) for at, _ in ends)
+        sides = (Equilibrium(of.base, at) for at, _ in ends)
         self._terms = [(Gradient(side, none, mode), -by) for side, (_, by) in zip(sides, ends, strict=True)]
         if loaded:
             with one_blas_thread():
@@ -54,8 +54,7 @@ class ModeGradient(Mapping[str, Any]):
             raise BadInput(f"{name}: none of a frequency; the scene's density and thickness have one")
         found = sum(by * term[name] for term, by in self._terms)
         if not name.startswith(FIELD):
-            of = self._of
-            (low, high), over = both_sides(of.calibration, of.plain, name, of.calibrate)
+            (low, high), over = self._of.base.sides(name)
             masses = [self._mode @ (self._inertia(*side) @ self._mode) for side in (low, high)]
             found -= self._squared * (masses[1] - masses[0]) / over
         return found / (4.0 * np.pi * np.sqrt(self._squared))

@@ -1,23 +1,24 @@
-"""The springs of a sheet with a natural strain e0 and curvature k0: what each measures where it is at rest.
+"""The springs of a sheet with a natural strain e0 and curvature k0: their measures g₀ at rest.
 
-At the height z over the mid-surface the sheet has the stretch U(z) = 1 + e0 − z k0 where nothing holds it. A
-link along d in the plane, whose ends are at the heights z₁ and z₂, and the sides a, b of a cell then have
+A free sheet has the stretch U(z) = 1 + e0 − z k0 at the height z over the mid-surface. A link along d in the
+plane, with ends at the heights z₁ and z₂, and a cell with the sides a, b then have
 
     g₀ = (z₂ − z₁)² + (U(z₁) d)·(U(z₂) d),     g₀ = (|U a|², |U b|², U a · U b)
 
-in place of what they measure on the flat sheet; columns and upright faces keep what they have. Of links
-across the layers that is the diagonal of an isosceles trapezoid: exact, so that a cylinder of any curvature
-k0 is a state without energy, its masses on a circle of 1/k0 and its cells turned by 2 asin(l k0/2) each. A
-cell that several parts share has the mean of their e0 and k0, a link between cells the mean of their g₀.
+at rest; columns and upright faces keep their measures of the flat sheet. For links across the layers g₀ is
+the diagonal of an isosceles trapezoid: exact, so that a cylinder of any curvature k0 is a state without
+energy, its masses on a circle of 1/k0 and its cells turned by 2 asin(l k0/2) each. A cell that several parts
+share has the mean of their e0 and k0, a link between cells the mean of their g₀.
 
-The springs' laws see δg − δg₀ for δg and g₀ for g at rest, so that no digits are lost; springs of cells
-resist strains of their natural sides. Derived here.
+The springs' laws take δg − δg₀ for δg and g₀ for g at rest, so that no digits are lost; springs of cells
+resist strains of their natural sides. Derived for this project.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -30,8 +31,8 @@ from sheetbench.scenes.meaning.natural_state import NaturalState
 
 XX_YY_XY = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
 COMPONENTS = (0, 0), (1, 1), (0, 1), (1, 0)
-# powers of a cell's area and of its sides' squares that the constants of `laws.of_stiffness` have
-OF_SIZE = np.array(
+# powers of a cell's area and of its sides' squares in the constants of `laws.of_stiffness`
+SIZE_POWERS = np.array(
     [[-1, 0, 0], [1, -2, 0], [1, 0, -2], [1, -1, -1], [1, -1, -1], [1, -1.5, -0.5], [1, -0.5, -1.5]]
 )
 
@@ -39,43 +40,40 @@ OF_SIZE = np.array(
 def with_natural(
     lattice: Lattice, families: Sequence[Family], state: NaturalState
 ) -> Callable[..., list[Family]]:
-    """Return what makes the families of a sheet that is not flat at rest, of its cells' strain and curvature.
-    Raises BadInput for springs of a per-direction law."""
-    found = _natural(lattice, families)
-    grown = [one and replace(one, stiffness=one.grown(state.at()[0])) for one in found]
-    return lambda *forms: [
-        family if one is None else one.of(*forms) for family, one in zip(families, grown, strict=True)
-    ]
+    """Return the function (strain, curvature of cells) → families of a sheet that is not flat at rest. Raises
+    BadInput for springs of a per-direction law."""
+    natural = _natural(lattice, families)
+    grown = [springs and replace(springs, stiffness=springs.grown(state.at()[0])) for springs in natural]
+    pairs = list(zip(families, grown, strict=True))
+    return lambda *forms: [family if springs is None else springs.of(*forms) for family, springs in pairs]
 
 
 def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> list[Family]:
-    """Return springs of a flat sheet with the stiffness that they have where it has this natural strain."""
-    found = zip(families, _natural(lattice, families), strict=True)
-    return [(one and replace(one.family, stiffness=one.grown(strain))) or family for family, one in found]
-
-
-def pulled(
-    lattice: Lattice,
-    families: Sequence[Family],
-    state: tuple[np.ndarray, np.ndarray],
-    by: list[np.ndarray],
-    curvature: bool,
-) -> np.ndarray:
-    """Return the derivatives (rows, columns, 3) by every cell's natural strain xx, yy and xy, or curvature,
-    of what has those `by` the constants and the natural δg₀ of the families
-    (`AllFamilies.powers_by_constants`), which are those of a flat sheet; state: strain and curvature, (rows,
+    """Return the springs of the flat sheet with the stiffness of a sheet with a natural strain, (rows,
     columns, 2, 2)."""
-    found = np.zeros((lattice.cell_areas.size, 3))
-    for one, power in zip(_natural(lattice, families), by, strict=False):
-        if one is not None:
-            found += one.pulled(*state, power, len(found), curvature)
-    return found.reshape(*lattice.cell_areas.shape, 3)
+    natural = _natural(lattice, families)
+    grown = [None if one is None else replace(one.family, stiffness=one.grown(strain)) for one in natural]
+    return [one or family for family, one in zip(families, grown, strict=True)]
+
+
+def rates(
+    lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray], curvature: bool
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return, for each family of a flat sheet, the adjacent cells of every spring (q, m), and the rates
+    (q, m, n, 3) of its constants and natural δg₀ by the cells' natural strain xx, yy and xy, or curvature;
+    state: strain and curvature, (rows, columns, 2, 2)."""
+    no_springs = np.zeros((1, 0), int), np.zeros((1, 0, 1, 3))
+    return [
+        no_springs if springs is None else (springs.cells.T, springs.rates(*state, curvature))
+        for springs in _natural(lattice, families)
+    ]
 
 
 @dataclass(frozen=True)
 class _Natural:
-    """Springs of cells with a natural state. sides: two for each product that is measured, (2, m, p, 3) [m];
-    cells, shares: (m, q) of each spring; heights: (m, 2) of its ends [m]; stiffness: of the grown sheet."""
+    """Springs of cells with a natural state. sides: the two factors of each product of sides that is
+    measured, (2, m, p, 3) [m]; cells, shares: (m, q) of each spring; heights: (m, 2) of its ends [m];
+    stiffness: of the grown sheet."""
 
     family: Links | SpringCells
     sides: np.ndarray
@@ -85,7 +83,7 @@ class _Natural:
     stiffness: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def grown(self, strain: np.ndarray) -> np.ndarray:
-        """Return the stiffness for sides as drawn, of springs that resist strains of the natural ones."""
+        """Return the stiffness by the drawn sides of springs that resist strains of the natural sides."""
         family = self.family
         if isinstance(family, Links):
             return family.stiffness
@@ -95,21 +93,21 @@ class _Natural:
         drawn = of_stiffness(np.ones_like(family.stiffness), family.sides, family.area)
         return np.asarray((natural / drawn)[:, : family.stiffness.shape[1]])
 
-    def _moved(self, *forms: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
-        """Return the sides in the plan (2, m, 1, p, 2), and what strain and curvature add to them."""
+    def _growth(self, *forms: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
+        """Return the sides in the plan (2, m, 1, p, 2), and their changes by strain and curvature."""
         plan, ends = self.sides[:, :, None, :, :2], self.heights.T
         if not any(form.any() for form in forms):
             return plan, [0.0 * side for side in plan]
         e, k = (form.reshape(-1, 2, 2)[self.cells] for form in forms)
         stretch = [(e - z[:, None, None, None] * k)[:, :, None] for z in ends]
-        # of so many matrices of 2 × 2 products cost less than their product
-        each = zip(plan, stretch, strict=True)
-        return plan, [a[..., :1] * of[..., 0, :] + a[..., 1:] * of[..., 1, :] for a, of in each]
+        # for many matrices of 2 × 2 products of components cost less than matrix products
+        pairs = zip(plan, stretch, strict=True)
+        return plan, [a[..., :1] * of[..., 0, :] + a[..., 1:] * of[..., 1, :] for a, of in pairs]
 
     def of(self, *forms: np.ndarray) -> Family:
         """Return the family with √g₀ of links or √det g₀ of cells and δg₀ (1 + p, m)."""
-        plan, moved = self._moved(*forms)
-        change = (plan * moved[::-1]).sum(axis=0) + moved[0] * moved[1]
+        plan, growth = self._growth(*forms)
+        change = (plan * growth[::-1]).sum(axis=0) + growth[0] * growth[1]
         by = np.einsum("mq,mqpi->pm", self.shares, change)
         g = self.sides.prod(axis=0).sum(axis=-1).T + by
         natural = np.stack([np.sqrt(g[0] if len(g) == 1 else g[0] * g[1] - g[2] ** 2), *by])
@@ -117,40 +115,34 @@ class _Natural:
             return replace(self.family, rest_length=natural[0], natural=natural[1])
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    def pulled(
-        self, strain: np.ndarray, k: np.ndarray, by: np.ndarray, count: int, curvature: bool
-    ) -> np.ndarray:
-        """Return derivatives (cells, 3), as `pulled` above."""
-        plan, moved = self._moved(strain, k)
-        weight = by[:, -self.sides.shape[2] :, None]
-        sides = zip(plan, plan[::-1], moved[::-1], self.heights.T, strict=True)
-        out = np.zeros((*self.cells.shape, 3))
-        for a, other, other_moved, z in sides:
-            b, of_spring = other + other_moved, -z[:, None] if curvature else 1.0
-            xx, yy, xy, yx = (
-                (weight[:, None] * a[..., [i]] * b[..., [j]]).sum(axis=(2, 3)) for i, j in COMPONENTS
-            )
-            out += np.stack([xx, yy, xy + yx], axis=-1) * (self.shares * of_spring)[..., None]
-        if isinstance(self.family, SpringCells) and not curvature:
-            out[:, 0] += self._of_stiffness(strain, by)
-        flat = self.cells.ravel()
-        sums = [np.bincount(flat, values.ravel(), count) for values in np.moveaxis(out, 2, 0)]
-        return np.stack(sums, axis=1)
+    def rates(self, strain: np.ndarray, k: np.ndarray, curvature: bool) -> np.ndarray:
+        """Return the rates (q, m, n, 3); see `rates` above."""
+        plan, growth = self._growth(strain, k)
+        by_change: Any = 0.0
+        for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
+            b, of_spring = other + other_growth, -z[:, None] if curvature else 1.0
+            xx, yy, xy, yx = (a[..., i] * b[..., j] for i, j in COMPONENTS)
+            by_change += np.stack([xx, yy, xy + yx], axis=-1) * (self.shares * of_spring)[..., None, None]
+        by_change = by_change.swapaxes(0, 1)
+        if not isinstance(self.family, SpringCells):
+            return np.concatenate([np.zeros_like(by_change), by_change], axis=2)
+        by_size = self._of_stiffness(strain)
+        return np.concatenate([0.0 * by_size if curvature else by_size, by_change], axis=2)
 
-    def _of_stiffness(self, strain: np.ndarray, by: np.ndarray) -> np.ndarray:
-        """Return those of cells (c, 3) by the constants that are of the natural sides."""
+    def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
+        """Return the rates (1, c, n, 3) of a cell's constants, by the change of its natural sides."""
         drawn = self.family.sides[..., :2]  # type: ignore[union-attr]
-        now = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
-        work = (by[:, : now.shape[1]] * now) @ OF_SIZE
+        constants = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
         sides = drawn + drawn @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]
-        moved = np.einsum("cij,wjk->wcik", drawn, XX_YY_XY)
-        of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), moved)
-        of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, moved) / (sides**2).sum(axis=2)[:, :, None]
-        return np.asarray(work[:, :1] * of_area + np.einsum("ci,ciw->cw", work[:, 1:], of_sides))
+        change = np.einsum("cij,wjk->wcik", drawn, XX_YY_XY)
+        of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), change)
+        of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, change) / (sides**2).sum(axis=2)[:, :, None]
+        of_size = np.concatenate([of_area[:, None], of_sides], axis=1)
+        return np.asarray(constants[:, :, None] * (SIZE_POWERS @ of_size))[None]
 
 
 def _natural(lattice: Lattice, families: Sequence[Family]) -> list[_Natural | None]:
-    """Return the families as springs of cells, None of those that keep what they have."""
+    """Return the families as springs of cells, or None if a family keeps its measures at rest."""
     return [_of_cells(lattice, family) for family in families]
 
 
@@ -159,8 +151,8 @@ def _of_cells(lattice: Lattice, family: Family) -> _Natural | None:
         raise BadInput("natural: springs of unequal stiffness along x, y and z have no natural length")
     if isinstance(family, Links):
         sides = np.stack(2 * [family.offset[:, None]])
-        these = lattice.links_of(family.nodes)
-        cells, shares = (part[:, these].T for part in (lattice.links.cells, lattice.links.shares))
+        index = lattice.links_of(family.nodes)
+        cells, shares = (part[:, index].T for part in (lattice.links.cells, lattice.links.shares))
         shares = shares / shares.sum(axis=1, keepdims=True)
     elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and len(family):
         sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)

@@ -1,11 +1,11 @@
 """Quadrature over the part of a cell where a depth is positive, as a compiled loop.
 
 A depth q is biquadratic on [−1, 1]², with nine values at −1, 0, 1 along x and y (x fastest). Along x, at each
-y, it is a parabola whose roots end the patch {q > 0}; the integrand there is a polynomial, exact by
-Gauss points between the roots. The integral over y is smooth between those y where a root passes a side of
-the cell or two roots meet: there it has the square root of the distance, which y(t) = ½ (3t − t³) makes
-regular. As depth vanishes at the patch's border, ∫ ⟨q⟩² has the derivatives 2 ∫ q φ and 2 ∫ φ φᵀ over the
-patch, by the same points.
+y, it is a parabola whose roots end the patch {q > 0}; the integrand between the roots is a polynomial, exact
+by Gauss points. The integral over y is smooth between the values of y where a root passes a side of the cell
+or two roots meet: there it has the square root of the distance, which y(t) = ½ (3t − t³) makes regular. Since
+the depth vanishes at the patch's border, ∫ ⟨q⟩² has the derivatives 2 ∫ q φ and 2 ∫ φ φᵀ over the patch, with
+the points of ∫ ⟨q⟩².
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ BERNSTEIN = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
 @inner()
 def value(c: np.ndarray, n: int, t: float) -> float:
     """Return a polynomial of degree n with coefficients c (n + 1,) at t."""
-    found = 0.0
+    total = 0.0
     for k in range(n, -1, -1):
-        found = found * t + c[k]
-    return found
+        total = total * t + c[k]
+    return total
 
 
 @inner()
@@ -77,7 +77,8 @@ def transform(by: np.ndarray, q: np.ndarray, c: np.ndarray) -> None:
 
 @inner()
 def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, count: int) -> int:
-    """Put Gauss points between lo and hi at a y after the first `count` of `points` (…, 3): x, y, weight."""
+    """Append Gauss points between lo and hi at a y to the first `count` of `points` (…, 3), x, y, weight;
+    return the new count."""
     lo, hi = max(lo, -1.0), min(hi, 1.0)
     if hi > lo:
         for g in range(len(ALONG)):
@@ -151,8 +152,8 @@ def integrate(
     depth: np.ndarray, stiffness: np.ndarray, over: np.ndarray, tangent: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return energies ∫ ψ (m,) [J], loads ∫ ψ' φ (m, 9) [N] and ∫ ψ'' φ φᵀ (m, 9, 9) [N/m] of depths (m, 9)
-    [m], and the deepest (m,); stiffness: k (m, 9) [N/m]; over: δ (m,) [m], 0 for ψ = ½ k d². tangent: whether
-    it is wanted."""
+    [m], and the deepest (m,); stiffness: k (m, 9) [N/m]; over: δ (m,) [m], 0 for ψ = ½ k d²; tangent: whether
+    to compute ∫ ψ'' φ φᵀ."""
     m = len(depth)
     energy, load, by = np.zeros(m), np.zeros((m, 9)), np.zeros((m, 9, 9))
     deepest = np.empty(m)

@@ -1,6 +1,6 @@
 """Stiffness of sheets with fibres: orthotropic plies, by the invariants of their stiffness under rotation.
 
-With Q of a ply in its own axes and t its angle (Tsai and Pagano)
+The invariants of the stiffness Q of a ply in its axes give C at the angle t (Tsai and Pagano):
 
     U₁ = (3 Q₁₁ + 3 Q₂₂ + 2 Q₁₂ + 4 Q₆₆)/8      C₁₁ = U₁ + U₂ cos 2t + U₃ cos 4t
     U₂ = (Q₁₁ − Q₂₂)/2                          C₂₂ = U₁ − U₂ cos 2t + U₃ cos 4t
@@ -9,8 +9,8 @@ With Q of a ply in its own axes and t its angle (Tsai and Pagano)
     U₅ = (U₁ − U₄)/2                            C₂₆ = ½ U₂ sin 2t − U₃ sin 4t,   C₆₆ = U₅ − U₃ cos 4t.
 
 Plies from z₀ to z₁ have A = Σ C (z₁ − z₀), B = Σ C (z₁² − z₀²)/2, D = Σ C (z₁³ − z₀³)/3. Transverse forces
-Q_x, Q_y have the stresses of cylindrical bending where nothing pulls, in each ply (a + 2 b n z − b z²) Q with
-n = B₁₁/A₁₁ and b = C₁₁/2(D₁₁ − n B₁₁), of which their shear compliance is made; of one ply S = κ G h,
+Q_x, Q_y have the stresses of cylindrical bending without tension, in each ply (a + 2 b n z − b z²) Q with
+n = B₁₁/A₁₁ and b = C₁₁/2(D₁₁ − n B₁₁); the shear compliance is their energy's. A single ply has S = κ G h,
 κ = 5/6.
 Source: Jones, Mechanics of Composite Materials (1999), 2.7, 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
 """
@@ -23,12 +23,12 @@ import numpy as np
 
 from sheetbench.scenes.objects.orthotropy import Ply
 
-ROUNDING = 1e-12  # of A times the thickness, for what of B is 0
+ROUNDING = 1e-12  # of A times the thickness: a smaller B is 0
 Parts = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def in_plane(ply: Ply) -> np.ndarray:
-    """C (…, 3, 3) [Pa] of a ply over (x, y, xy)."""
+    """Return C (…, 3, 3) [Pa] of a ply over (x, y, xy)."""
     q11 = np.asarray(ply.young_1**2 / (ply.young_1 - ply.poisson_12**2 * ply.young_2))
     q22 = q11 * ply.young_2 / ply.young_1
     q12, q66, both = ply.poisson_12 * q22, ply.shear_12, q11 + q22
@@ -41,7 +41,7 @@ def in_plane(ply: Ply) -> np.ndarray:
 
 
 def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
-    """A (…, 3, 3) [N/m], D (…, 3, 3) [N·m], S (…, 2, 2) [N/m] and B (…, 3, 3) [N] of plies."""
+    """Return A (…, 3, 3) [N/m], D (…, 3, 3) [N·m], S (…, 2, 2) [N/m] and B (…, 3, 3) [N] of plies."""
     moduli = [in_plane(ply) for ply in plies]
     layers = list(zip(moduli, plies, strict=True))
     stretching, mixed, bending = (
@@ -63,12 +63,12 @@ def section(plies: Sequence[Ply], thickness: np.ndarray) -> Parts:
 
 
 def _along(form: np.ndarray) -> np.ndarray:
-    """11 and 22 (…, 2) of forms (…, 3, 3)."""
+    """Return the entries 11 and 22 (…, 2) of forms (…, 3, 3)."""
     return np.diagonal(form, axis1=-2, axis2=-1)[..., :2]
 
 
 def _shear_compliance(ply: Ply) -> np.ndarray:
-    """Of transverse shear along x and y (…, 2, 2) [1/Pa]."""
+    """Return the compliance of transverse shear along x and y (…, 2, 2) [1/Pa]."""
     mean = 0.5 * (1.0 / ply.shear_13 + 1.0 / ply.shear_23)
     half_difference = 0.5 * (1.0 / ply.shear_13 - 1.0 / ply.shear_23)
     once, mixed = half_difference * np.cos(2.0 * ply.angle), half_difference * np.sin(2.0 * ply.angle)
@@ -76,5 +76,5 @@ def _shear_compliance(ply: Ply) -> np.ndarray:
 
 
 def _matrix(rows: Sequence[Sequence[np.ndarray]]) -> np.ndarray:
-    """(…, k, k) of entries (…)."""
+    """Return the matrices (…, k, k) of entries (…)."""
     return np.stack([np.stack(np.broadcast_arrays(*row), axis=-1) for row in rows], axis=-2)

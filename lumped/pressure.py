@@ -2,12 +2,12 @@
 
     F_a = p ∫ N_a x,ξ × x,η dξ dη = p Σ_b M_ab c_b,     c_b = (x_{b+1} − x_b) × (x_{b−1} − x_b),
 
-with M_ab = ∫ N_a N_b over the unit square, 4/36 for a = b, 2/36 for neighbours, 1/36 across: exact. Of the
-diagonals d = x₂ − x₀ and e = x₃ − x₁, d × e = c₀ + c₂ = c₁ + c₃: so F_a = p (c_a + d × e)/12, and a cell's
-forces sum up to p ½ d × e. Each corner is the mean of a column of masses and shares its force equally among
-them. Where the edges sweep no area (`scenes.encloses_volume`) these are the derivatives of p V,
-V = ∫ z (x,ξ × x,η)·e_z = Σ z_a F_a·e_z/p the volume over the plan, and the tangent is symmetric; else the
-edges add to it what is not (Schweizerhof and Ramm 1984).
+with M_ab = ∫ N_a N_b over the unit square, 4/36 for a = b, 2/36 for neighbours, 1/36 across: exact. The
+diagonals d = x₂ − x₀ and e = x₃ − x₁ have d × e = c₀ + c₂ = c₁ + c₃: so F_a = p (c_a + d × e)/12, and a
+cell's forces sum up to p ½ d × e. Each corner is the mean of a column of masses and shares its force equally
+among them. If the edges sweep no area (`scenes.encloses_volume`), the forces are the derivatives of p V,
+V = ∫ z (x,ξ × x,η)·e_z = Σ z_a F_a·e_z/p the volume over the plan, and the tangent is symmetric; otherwise
+the edges add an unsymmetric part (Schweizerhof and Ramm 1984).
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ import numpy as np
 from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import njit
 
-WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M by how many corners farther in turn
+WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M_ab by (b − a) mod 4
 
 
 @njit
 def _middle(x: np.ndarray, p: int) -> np.ndarray:
-    """The mean of every column of p masses, in the row of its first, (n, 3)."""
+    """Return the mean of every column of p masses, in the row of its first, (n, 3)."""
     out = zeros(x.shape)
     for mass in range(len(x)):
         for q in range(3):
@@ -61,8 +61,9 @@ def add_surface_forces(x: np.ndarray, cells: np.ndarray, pressure: np.ndarray, f
 
 @njit
 def add_couples(x: np.ndarray, columns: np.ndarray, moments: np.ndarray, force: np.ndarray) -> None:
-    """Add couples (e,) [N·m] at positions x (n, 3) [m] to `force` (n, 3) [N], each on the outer layers of its
-    column of masses about the chord of its neighbours': columns (e, 3, p), its own and those."""
+    """Add couples (e,) [N·m] at positions x (n, 3) [m] to `force` (n, 3) [N], each on the outer layers of a
+    column of masses about the chord between its neighbours; columns: (e, 3, p), the column, the one before
+    and the one after."""
     along, across = empty(3), empty(3)
     for e in range(len(columns)):
         top, bottom, length, square = columns[e, 0, -1], columns[e, 0, 0], 0.0, 0.0

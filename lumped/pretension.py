@@ -1,9 +1,9 @@
-"""The natural strain that gives a sheet its pretension by a lattice's own springs.
+"""The natural strain that gives a sheet its pretension by a lattice's springs.
 
-Held where it is drawn, a lattice of cells that are all stretched alike does the work Σ f·δx = N : δε A in a
-small strain of its plan, f the springs' forces on the masses at x, so that its tension N is Σ f xᵀ/A. Nothing
-holds its layers apart: Σ f_z z = 0. A cell that is stiffer or that the sheet has a part of, by a factor,
-counts as so much area. Derived here.
+Held at its drawn size, a lattice of equally stretched cells does the work Σ f·δx = N : δε A in a small strain
+of its plan, f the springs' forces on the masses at x, so that its tension N is Σ f xᵀ/A. The distance of its
+layers is free: Σ f_z z = 0. The area of a cell that is stiffer, or partly covered by the sheet, counts by the
+factor of its stiffness. Derived for this project.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ from sheetbench.scenes.objects.natural import Natural
 
 
 def stretched(scene: Scene, assembly: Assembly) -> Scene:
-    """Return the scene with the natural strain that gives its pretension in this lattice, not grown yet."""
+    """Return the scene with the natural strain that gives its pretension in a lattice without a natural
+    state."""
     lattice, areas = assembly.lattice, assembly.lattice.cell_areas
     if assembly.cells is not None:
         areas = areas * assembly.cells.bending[..., 0, 0] / CellSection.of(of_sheet(scene)).bending[..., 0, 0]
@@ -49,9 +50,22 @@ def stretched(scene: Scene, assembly: Assembly) -> Scene:
 
 
 def calibrated_at_rest(scene: Scene, calibrate: Callable[[Sheet], Calibration]) -> Calibration:
-    """Return the springs of a scene's sheet as long and as wide as it is at rest, of what finds those of a
-    sheet; with a pretension by springs of the linear law's size first."""
-    found = calibrate(sheet_at_rest(scene))
+    """Return the springs of a scene's sheet at its size at rest.
+
+    Parameters
+    ----------
+    scene : Scene
+        Scene with or without a natural strain or pretension.
+    calibrate : callable
+        Function ``Sheet -> Calibration`` that calibrates a sheet of given length and width.
+
+    Returns
+    -------
+    Calibration
+        Springs of the sheet at rest. The size at rest under a pretension follows from springs that are
+        calibrated with the linear law's size first.
+    """
+    springs = calibrate(sheet_at_rest(scene))
     if scene.natural is None or scene.natural.pretension is None:
-        return found
-    return calibrate(sheet_at_rest(stretched(scene, Assembly(scene.sheet, found))))
+        return springs
+    return calibrate(sheet_at_rest(stretched(scene, Assembly(scene.sheet, springs))))

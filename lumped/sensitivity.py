@@ -1,51 +1,21 @@
-"""How displacements depend on numbers of a scene, and a lattice as a function that is differentiated."""
+"""A lattice as a differentiable function of numbers of its scene."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import Calibration, default
-from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, of_changed
+from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, Plain, of_changed
 from lumped.mid_surface import MidSurface
-from lumped.statics.build import build_problem
 from lumped.statics.problem import LatticePath, Problem
 from lumped.statics.solver import solve_path
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.threads import one_blas_thread
-from sheetbench.scenes import AnyScene, Scene, require_static, scene_of
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """displacement: (n, 3) [m] at the points; derivatives: parameter → (n, 3) [m per unit of the
-    parameter]."""
-
-    displacement: np.ndarray
-    derivatives: dict[str, np.ndarray]
-
-
-def sensitivity(
-    scene: Scene,
-    calibration: Calibration,
-    parameters: Sequence[str],
-    points: np.ndarray | None = None,
-    calibrate: Calibrate | None = None,
-) -> Sensitivity:
-    """d(displacement at plan points (n, 2) [m])/d(parameter); the scene's probes unless points are given.
-
-    calibrate: how springs of a changed scene are found; by the same method without options unless given.
-
-    Raises BadInput for an unknown parameter, NoEquilibrium where there is no stable one on these springs.
-    """
-    of = Differentiable(scene, calibration, calibrate)
-    u = of.solve({})
-    at = MidSurface(of.problem.assembly.lattice, scene.probe_points() if points is None else points)
-    return Sensitivity(at.of(u), {name: at.of(of.pushforward({name: 1.0})) for name in parameters})
+from sheetbench.scenes import AnyScene, require_static, scene_of
 
 
 class Differentiable:
@@ -66,16 +36,13 @@ class Differentiable:
         self.scene = scene_of(scene)
         require_static(self.scene)
         self.calibration, self._calibrate = calibration or default(self.scene), calibrate
-        self._plain = self._at(self.scene, self.calibration)
+        self._base = Plain.of(self.scene, self.calibration, calibrate)
+        self._plain = Equilibrium(self._base, np.zeros_like(self._base.problem.loads.dead))
         self._last, self._values = self._plain, dict[str, np.ndarray]()
-
-    def _at(self, scene: Scene, calibration: Calibration) -> Equilibrium:
-        problem = build_problem(scene, calibration)
-        return Equilibrium(problem, calibration, np.zeros_like(problem.loads.dead), self._calibrate)
 
     @property
     def base(self) -> dict[str, np.ndarray]:
-        """The fields over the cells as the scene has them, and no forces."""
+        """The scene's own fields over the cells, and zero forces."""
         fields = {FIELD + name: field for name, field in self._plain.cells.base.items()}
         return {**fields, FORCES: np.zeros_like(self._plain.u)}
 
@@ -90,7 +57,7 @@ class Differentiable:
 
     def solve(self, values: Mapping[str, Any]) -> np.ndarray:
         """Return the displacement (n, 3) [m] of the stable equilibrium with these values, sought from the
-        last one first. Raises NoEquilibrium where there is none, BadInput for other names."""
+        last solution first. Raises NoEquilibrium where there is none, BadInput for other names."""
         at, path = self.path(values, None if self._last is self._plain else self._last.u)
         require_stable("lumped", path.status, path.notes)
         at.u, self._last = path.state.u, at
@@ -98,14 +65,14 @@ class Differentiable:
         return path.state.u
 
     def path(self, values: Mapping[str, Any], near: np.ndarray | None) -> tuple[Equilibrium, LatticePath]:
-        """Return the path to the equilibrium with these values, sought first from `near` (n, 3), and what has
-        its derivatives once its u is known."""
+        """Return the path to the equilibrium with these values, sought first from `near` (n, 3), and its
+        derivatives, which lack u."""
         scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
             scene, calibration = of_changed(scene, calibration, name, float(values[name]), self._calibrate)
-        plain = self._plain.plain if scene is self.scene else build_problem(scene, calibration)
-        at = Equilibrium(plain, calibration, self._plain.u, self._calibrate, fields)
+        base = self._base if scene is self.scene else Plain(scene, calibration, self._calibrate)
+        at = Equilibrium(base, self._plain.u, fields)
         near = None if at.problem.assembly.coupling is not None else near
         with one_blas_thread():
             path = solve_path(at.problem, near=near)
@@ -113,13 +80,18 @@ class Differentiable:
                 path = solve_path(at.problem)
         return at, path
 
+    def at_points(self, points: np.ndarray, names: Iterable[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Return the scene's own displacement (p, 3) at plan points (p, 2), and its derivatives by name."""
+        found = MidSurface(self.problem.assembly.lattice, points).of(self.solve({}))
+        return found, {name: self._last.moved_at(points, name) for name in names}
+
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
-        """Return the derivatives by name, at the last solve's values, of a J that has these by u, (n, 3)."""
+        """Return the derivatives of J by name at the last solve's values; by_displacement: ∂J/∂u (n, 3)."""
         return self._solved().pullback(by_displacement)
 
     def vjp(self, values: Mapping[str, Any], by_displacement: np.ndarray) -> dict[str, np.ndarray]:
-        """Return the derivatives by each of these values, of its shape, of a J that has these by u, (n, 3);
-        with a solve where these are not the last one's."""
+        """Return the derivatives of J by each of these values, of its shape, by_displacement: ∂J/∂u (n, 3);
+        values that are not the last solve's are solved first."""
         last = self._values
         same = last.keys() == values.keys() and self._last is not self._plain
         if not (same and all(np.array_equal(value, last[name]) for name, value in values.items())):
@@ -128,7 +100,7 @@ class Differentiable:
         return {name: np.reshape(found[name], np.shape(value)) for name, value in values.items()}
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
-        """Return how u moves with changes of values, at those of the last solve."""
+        """Return the change (n, 3) [m] of u by changes of the last solve's values, to first order."""
         return self._solved().pushforward(changes)
 
     def _solved(self) -> Equilibrium:

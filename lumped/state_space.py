@@ -1,14 +1,14 @@
 """A linear system ẋ = A x + B w, y = C x + D w: poles, responses, and as few states as a tolerance allows.
 
-Balanced truncation. With the inputs scaled by W, so that each alone at rest moves the outputs by 1 m
-together, the Gramians P and Q of A P + P Aᵀ + B W W Bᵀ = 0 and Aᵀ Q + Q A + Cᵀ C = 0 say how easily inputs
-reach a state and how well outputs show it. In the coordinates where both are diag(σ), Hankel's singular
-values, states of small σ matter little. They follow at rest here, so that slow inputs are answered exactly
-(singular perturbation), and of any order r the error is bounded beforehand:
+Balanced truncation. Inputs are scaled by W, so that each alone moves the outputs at rest by a vector of norm
+1 m. The Gramians P and Q of A P + P Aᵀ + B W W Bᵀ = 0 and Aᵀ Q + Q A + Cᵀ C = 0 measure controllability and
+observability of the states. Both are diag(σ), Hankel's singular values, in balanced coordinates; states of
+small σ matter little. They follow quasi-statically, so that slow inputs are answered exactly (singular
+perturbation), and the error of any order r is bounded beforehand:
 
     max over ω of ‖(G − G_r)(iω) W‖₂ ≤ 2 (σ_{r+1} + … + σ_n)
 
-Of each input alone: its answer is wrong at no frequency by more than that share of what it does at rest.
+The bound holds for each input alone, at all frequencies, as a share of its response at rest.
 Sources: Moore 1981; Enns 1984 and Glover 1984 on the bound; Liu and Anderson 1989 on states at rest; Laub,
 Heath, Paige and Ward 1987 on balancing by square roots.
 """
@@ -24,12 +24,26 @@ import scipy.linalg
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 
-MOST = 1000  # states that dense Gramians are found for: some ten seconds
+MOST = 1000  # states with dense Gramians: some ten seconds
 
 
 @dataclass(frozen=True, eq=False)
 class StateSpace:
-    """A (s, s), B, C, D; frequencies [Hz]: undamped ones of modes, |poles|/2π of what was reduced further."""
+    """A linear system ẋ = A x + B w, y = C x + D w.
+
+    Parameters
+    ----------
+    a : ndarray of shape (s, s)
+        Matrix A [1/s].
+    b : ndarray of shape (s, inputs)
+        Matrix B, in units of the states per second and of the inputs.
+    c : ndarray of shape (outputs, s)
+        Matrix C, in units of the outputs and of the states.
+    d : ndarray of shape (outputs, inputs)
+        Matrix D, in units of the outputs and of the inputs.
+    frequencies : ndarray of shape (k,)
+        Frequencies [Hz], undamped ones of modes, |poles|/2π of a reduced system.
+    """
 
     a: np.ndarray
     b: np.ndarray
@@ -39,21 +53,21 @@ class StateSpace:
 
     @cached_property
     def poles(self) -> np.ndarray:
-        """Eigenvalues of A [rad/s], the slowest first, those above the real axis before their conjugates."""
-        found = np.linalg.eigvals(self.a)
-        return found[np.lexsort((-found.imag, np.round(abs(found), 9)))]
+        """Eigenvalues of A [rad/s], the slowest first, positive imaginary parts before their conjugates."""
+        values = np.linalg.eigvals(self.a)
+        return values[np.lexsort((-values.imag, np.round(abs(values), 9)))]
 
     def response(self, frequencies: np.ndarray) -> np.ndarray:
-        """C (iω − A)⁻¹ B + D at frequencies (f,) [Hz], (f, outputs, inputs)."""
+        """Return C (iω − A)⁻¹ B + D at frequencies (f,) [Hz], (f, outputs, inputs)."""
         unit = np.eye(len(self.a))
         at = 2j * np.pi * np.asarray(frequencies)
         return np.stack([self.c @ np.linalg.solve(s * unit - self.a, self.b) + self.d for s in at])
 
     def balanced(self, order: int | None = None, tolerance: float | None = None) -> Balanced:
-        """The most important states: `order` of them, or as few as keep the bound within `tolerance`.
+        """Return the system reduced to `order` states, or to as few as keep the bound within `tolerance`.
 
-        Raises BadInput without either or with both, for an order that there is not, for more than MOST
-        states, and where nothing damps a motion, which has no Gramians.
+        Raises BadInput without either or with both, for an order out of range, for more than MOST states, and
+        for an undamped motion, which has no Gramians.
         """
         size = len(self.a)
         if (order is None) == (tolerance is None):
@@ -72,8 +86,17 @@ class StateSpace:
 
 @dataclass(frozen=True, eq=False)
 class Balanced:
-    """space: of the states kept; hankel: σ of all, the largest first (s,); scale: W of the inputs (inputs,)
-    [their units/m]."""
+    """A reduced system by balanced truncation.
+
+    Parameters
+    ----------
+    space : StateSpace
+        System of the states kept.
+    hankel : ndarray of shape (s,)
+        Hankel's singular values σ of all states, falling.
+    scale : ndarray of shape (inputs,)
+        Scale W of the inputs [units of the inputs/m].
+    """
 
     space: StateSpace
     hankel: np.ndarray
@@ -81,16 +104,16 @@ class Balanced:
 
     @property
     def order(self) -> int:
-        """States kept."""
+        """Number of states kept."""
         return len(self.space.a)
 
     @property
     def bound(self) -> float:
-        """2 Σ σ of the states left out."""
+        """Bound of the error, 2 Σ σ of the states left out."""
         return float(2.0 * self.hankel[self.order :].sum())
 
     def order_within(self, tolerance: float) -> int:
-        """Return the fewest states with a bound within a tolerance."""
+        """Return the lowest order with a bound within a tolerance."""
         return _order_within(self.hankel, tolerance)
 
 
@@ -103,25 +126,25 @@ def _balanced(space: StateSpace, order: int | None, tolerance: float | None) -> 
     at_rest = np.linalg.norm(space.response(np.zeros(1))[0].real, axis=0)
     scale = 1.0 / np.where(at_rest > 0.0, at_rest, 1.0)
     b = space.b * scale
-    reached = _root(scipy.linalg.solve_continuous_lyapunov(space.a, -b @ b.T))
-    shown = _root(scipy.linalg.solve_continuous_lyapunov(space.a.T, -space.c.T @ space.c))
-    left, hankel, right = np.linalg.svd(shown.T @ reached)
+    control = _root(scipy.linalg.solve_continuous_lyapunov(space.a, -b @ b.T))
+    observation = _root(scipy.linalg.solve_continuous_lyapunov(space.a.T, -space.c.T @ space.c))
+    left, hankel, right = np.linalg.svd(observation.T @ control)
     if order is None:
         assert tolerance is not None
         order = _order_within(hankel, tolerance)
-    within = int(np.count_nonzero(hankel > 1e-14 * hankel[0]))  # the rest is neither reached nor shown
-    order = min(order, within)
-    weight = np.sqrt(hankel[:within])
-    to, back = shown @ left[:, :within] / weight, reached @ right.T[:, :within] / weight
+    minimal = int(np.count_nonzero(hankel > 1e-14 * hankel[0]))  # others are uncontrollable or unobservable
+    order = min(order, minimal)
+    weight = np.sqrt(hankel[:minimal])
+    to, back = observation @ left[:, :minimal] / weight, control @ right.T[:, :minimal] / weight
     a, b, c = to.T @ space.a @ back, to.T @ space.b, space.c @ back
-    kept, rest = slice(0, order), slice(order, within)
-    follow = np.linalg.solve(a[rest, rest], np.hstack([a[rest, kept], b[rest]]))
-    small_a = a[kept, kept] - a[kept, rest] @ follow[:, :order]
+    retained, truncated = slice(0, order), slice(order, minimal)
+    follow = np.linalg.solve(a[truncated, truncated], np.hstack([a[truncated, retained], b[truncated]]))
+    small_a = a[retained, retained] - a[retained, truncated] @ follow[:, :order]
     small = StateSpace(
         small_a,
-        b[kept] - a[kept, rest] @ follow[:, order:],
-        c[:, kept] - c[:, rest] @ follow[:, :order],
-        space.d - c[:, rest] @ follow[:, order:],
+        b[retained] - a[retained, truncated] @ follow[:, order:],
+        c[:, retained] - c[:, truncated] @ follow[:, :order],
+        space.d - c[:, truncated] @ follow[:, order:],
         np.sort(np.abs(np.linalg.eigvals(small_a))) / (2.0 * np.pi),
     )
     if small.poles.real.max() >= 0.0:
@@ -130,7 +153,7 @@ def _balanced(space: StateSpace, order: int | None, tolerance: float | None) -> 
 
 
 def _root(gramian: np.ndarray) -> np.ndarray:
-    """L of L Lᵀ, what rounding put below zero left out."""
+    """Return L of a Gramian L Lᵀ, without eigenvalues that rounding made negative."""
     values, vectors = np.linalg.eigh(0.5 * (gramian + gramian.T))
     root: np.ndarray = vectors * np.sqrt(np.clip(values, 0.0, None))
     return root

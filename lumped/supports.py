@@ -7,7 +7,7 @@ held     the mean of the layers held in the named components
 curved   every layer held on the director of the rod
 symmetric  the component across the edge held, in every layer
 
-Where bent and tilted edges are at a load factor λ is the scene's to say (`scenes.meaning.kinematics`).
+The places of bent and tilted edges at a load factor λ are defined by the scene (`scenes.meaning.kinematics`).
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ from sheetbench.scenes.objects.supports import named
 
 @dataclass(frozen=True, eq=False)
 class Constraints:
-    """transform: (3n, m) sparse, q → u; turned: λ → g (n, 3) [m] of bent rods and tilted clamps; shift:
-    (n, 3) [m] in the end of supports that move; holders: by the supports' names (columns of masses (m,
-    layers), axes held); held: (n, 3) bool, components that some support acts on; fixed: (n, 3) bool, those of
-    them that are in place whatever q is."""
+    """Constraints of supports and actuators. transform: (3n, m) sparse, q → u; turned: λ → g (n, 3) [m] of
+    bent rods and tilted clamps; shift: (n, 3) [m] final displacement by supports that move; holders: columns
+    of masses (m, layers) and axes held, by the support's name; held: (n, 3) bool, components that a support
+    acts on; fixed: (n, 3) bool, held components that do not depend on q."""
 
     transform: sp.csr_array
     turned: Callable[[float], np.ndarray]
@@ -50,16 +50,16 @@ class Constraints:
     _reduced: dict[tuple[MassPattern, bool], ReducedSystem] = field(default_factory=dict)
 
     def prescribed(self, load_factor: float) -> np.ndarray:
-        """g (n, 3) [m] in statics, which take the end of supports' motions."""
+        """Return g (n, 3) [m] of statics, the last values of supports' motions included."""
         return self.turned(load_factor) + load_factor * self.shift
 
     @cached_property
     def transform_arrays(self) -> Rows:
-        """The transform as compiled loops take it."""
+        """The arrays of the transform for compiled loops."""
         return csr_arrays(self.transform)
 
     def nearest(self, u: np.ndarray) -> np.ndarray:
-        """The unknowns (m,) whose T q is closest to u (n, 3): (TᵀT)⁻¹ Tᵀ u."""
+        """Return the unknowns (m,) whose T q is closest to u (n, 3): (TᵀT)⁻¹ Tᵀ u."""
         unknowns: np.ndarray = self._normal_solve(self.transform.T @ u.ravel())
         return unknowns
 
@@ -73,17 +73,16 @@ class Constraints:
         return splu(normal).solve
 
     def reduced(self, pattern: MassPattern, symmetric: bool) -> ReducedSystem:
-        """The system of the free unknowns, without multipliers, over a pattern: the same one when requested
-        again."""
-        found = self._reduced.get((pattern, symmetric))
-        if found is None:
-            found = self._reduced[pattern, symmetric] = reduced(pattern, self.transform, symmetric)
-        return found
+        """Return the system of the free unknowns, without multipliers, over a pattern, from a cache."""
+        system = self._reduced.get((pattern, symmetric))
+        if system is None:
+            system = self._reduced[pattern, symmetric] = reduced(pattern, self.transform, symmetric)
+        return system
 
     def reactions(self, residual: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
-        """Force [N] of each support on the sheet, (3,) by edge, and of all supports on each mass, (n, 3),
-        from internal minus external force (n, 3). A mass held by several counts equally to each; a corner's
-        masses carry what holds the end of a chain there."""
+        """Return the force (3,) [N] of each support on the sheet, by name, and of all supports on each mass,
+        (n, 3) [N]. residual: internal minus external force (n, 3) [N]. A mass held by several supports counts
+        equally to each; the force that holds the end of a chain acts on its corner's masses."""
         if self.coupling is not None and self.coupling.corners():
             residual = residual.copy()
             for body, end, column in self.coupling.corners():
@@ -94,8 +93,8 @@ class Constraints:
 
     @cached_property
     def summed(self) -> Rows:
-        """The map of what holds the masses, (3 n,) [N], to the force of each support, (3 supports,), of which
-        a mass held by several counts equally to each; without chains."""
+        """The map of the force that holds the masses, (3 n,) [N], to the force of each support, (3 supports,)
+        [N], without chains; a mass held by several supports counts equally to each."""
         holders = np.zeros(self.held.size)
         rows, columns = [np.empty(0, int)], [np.empty(0, int)]
         for number, (masses, axes) in enumerate(self.holders.values()):
@@ -110,9 +109,9 @@ class Constraints:
 
 
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:
-    """The constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a linear
-    map of the actuator's rows. Columns of edges moved rigidly are the motion's, not the supports'. Of the
-    same supports without actuators on the same small lattice they are the same every time."""
+    """Return the constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a
+    linear map of the actuator's rows. An edge moved rigidly is held by the motion, not by supports.
+    Constraints without actuators on a small lattice are cached."""
     return _constrain(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
 
 
@@ -178,14 +177,15 @@ def _constrain(
 
 
 def _last_layers(n: int, components: np.ndarray) -> sp.csr_array:
-    """The map (3n, 3n) of last layers that are minus the sum of the others, of components (c, layers)."""
+    """Return the map (3n, 3n) that makes last layers minus the sum of the others, for components (c,
+    layers)."""
     others = components[:, :-1].ravel()
     entries = (np.full(len(others), -1.0), (np.repeat(components[:, -1], components.shape[1] - 1), others))
     return sp.csr_array(sp.coo_array(entries, shape=(3 * n, 3 * n)))
 
 
 def _link(n: int, targets: np.ndarray, sources: np.ndarray, weights: np.ndarray) -> sp.csr_array:
-    """The map (3n, 3n) of rows (k,) that are weights (k, s) @ other rows (s,)."""
+    """Return the map (3n, 3n) of rows (k,) that are weights (k, s) @ other rows (s,)."""
     at, source = np.nonzero(weights)
     axes = np.arange(3)[:, None]
     rows, columns = (3 * targets[at] + axes).ravel(), (3 * sources[source] + axes).ravel()

@@ -1,7 +1,7 @@
 """Natural frequencies of a lattice about the flat, stress-free state, or about equilibrium: K φ = ω² M φ.
 
-K is the tangent there, M the mass matrix (`lumped.masses`). A lattice whose supports leave rigid
-motions free has zero frequencies: they are found with a small shift, counted, and left out.
+K is the tangent in that state, M the mass matrix (`lumped.masses`). A lattice whose supports leave rigid
+motions free has zero frequencies: they are computed with a small shift, counted, and left out.
 """
 
 from __future__ import annotations
@@ -32,24 +32,41 @@ from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, require_static, scene_of
 
-ALIKE = 1e-6  # of a frequency, up to which another is the same
+COINCIDENT = 1e-6  # relative difference up to which two frequencies coincide
 
 
 @dataclass(frozen=True, repr=False)
 class Modes(NaturalModes):
-    """Shapes are of the masses of `lattice`, their largest component 1."""
+    """Natural modes of a lattice.
+
+    Parameters
+    ----------
+    frequencies : ndarray of shape (count,)
+        Natural frequencies [Hz], rising.
+    shapes : ndarray of shape (count, n, 3)
+        Displacements of the masses, with the largest component 1.
+    rigid : int
+        Number of rigid motions, which are left out.
+    unknowns : int
+        Number of free unknowns.
+    lattice : Lattice
+        Lattice of the masses.
+    gradient_of : callable, optional
+        Function of a mode's number that returns the derivatives of its frequency.
+    """
 
     lattice: Lattice
     gradient_of: Callable[[int], Any] | None = None
 
     def sensitivity(self, number: int) -> Any:
-        """Return df/dθ [Hz per unit] by name of the mode of a number, the first being 1 (`mode_sensitivity`).
-        Raises Impossible where two frequencies coincide, for the last mode found and where it has none."""
+        """Return the derivatives df/dθ [Hz per unit] of a mode's frequency by name (`mode_sensitivity`);
+        number: from 1. Raises Impossible where two frequencies coincide, for the last mode, and about a flat
+        sheet with a natural state."""
         if self.gradient_of is None:
             raise Impossible("derivatives of frequencies: not about a flat sheet with a natural state")
         if not 1 <= number < len(self.frequencies):
             raise Impossible(f"mode {number}: its neighbours must be known: 1 to {len(self.frequencies) - 1}")
-        near = np.abs(self.frequencies / self.frequencies[number - 1] - 1.0) <= ALIKE
+        near = np.abs(self.frequencies / self.frequencies[number - 1] - 1.0) <= COINCIDENT
         if near.sum() > 1:
             which = " and ".join(str(n + 1) for n in np.flatnonzero(near))
             raise Impossible(
@@ -58,7 +75,7 @@ class Modes(NaturalModes):
         return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
+        """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
         at = MidSurface(self.lattice, points)
         return np.stack([at.of(shape) for shape in self.shapes])
 
@@ -73,21 +90,46 @@ def modes(
     distribution: Inertia | None = None,
     about: About = "flat",
 ) -> Modes:
-    """The `count` lowest natural modes of the scene's sheet on a lattice.
+    """Return the lowest natural modes of a scene's sheet on a lattice.
 
-    calibration: as of `lumped.solve`. distribution: how the masses are shared out (`lumped.masses`);
-    higher-order unless given, or those that springs fitted to frequencies go with. about: the flat,
-    stress-free sheet, without actuators, loads not mattering; or "deformed", its equilibrium under the
-    scene's loads (no actuators, no follower loads), with the tangent there.
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        Scene, the name of one in the catalogue, or the path of its file.
+    calibration : Calibration, optional
+        Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
+    count : int, default 10
+        Number of modes, rigid motions not counted.
+    distribution : {"tributary", "gregory", "higher-order"}, optional
+        Distribution of the mass (`lumped.masses`); by default `usual_masses(calibration)`.
+    about : {"flat", "deformed"}, default "flat"
+        State of the sheet: flat and stress-free, without actuators and loads, or the equilibrium under the
+        scene's loads, with the tangent of that state.
 
-    Raises BadInput for a count that the lattice cannot give or where the scene asks what has no modes,
-    NoEquilibrium where there is none to be about.
+    Returns
+    -------
+    Modes
+        Frequencies (count,) [Hz], rising, and shapes (count, n, 3).
 
+    Raises
+    ------
+    BadInput
+        If the lattice has fewer than `count` modes, or about "deformed" a scene has actuators, follower loads
+        or springs of a per-direction law.
+    NoEquilibrium
+        If about "deformed" there is no stable equilibrium.
+
+    Notes
+    -----
+    The eigenproblem is K φ = ω² M φ, with the tangent K and the mass matrix M of the free unknowns.
+
+    Examples
+    --------
     >>> import lumped
     >>> from sheetbench.scenes import load
     >>> scene = load("one-edge-clamped")
-    >>> found = lumped.modes(scene, lumped.calibrate(scene.sheet, scene.material, grid=5), 2)
-    >>> found.frequencies.round(2)
+    >>> modes = lumped.modes(scene, lumped.calibrate(scene.sheet, scene.material, grid=5), 2)
+    >>> modes.frequencies.round(2)
     array([2.72, 6.19])
     """
     scene = scene_of(scene)
@@ -105,7 +147,7 @@ def modes(
                 "of a per-direction law have none"
             )
         at = stable_equilibrium(problem).u
-    rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # obstacles stop those of an equilibrium
+    rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # an equilibrium has none
     unknowns = problem.system.unknowns
     if not 1 <= count <= unknowns - rigid:
         raise BadInput(f"count = {count}: 1 to {unknowns - rigid} on this lattice")
@@ -113,7 +155,7 @@ def modes(
     inertia, bodies, mass = _masses(problem, shared, calibration)
     blocks = problem.tangent(at, float(about == "deformed"))
     stiffness = problem.system.matrix(blocks)
-    wanted, shift = count + rigid, _shift(scene)
+    total, shift = count + rigid, _shift(scene)
 
     def factor() -> Factor:
         shifted, shared = blocks.copy(), problem.assembly.pattern.slots(*inertia.coords)
@@ -122,20 +164,20 @@ def modes(
         return problem.system.factor(shifted)
 
     with one_blas_thread():
-        values, vectors = lowest_modes(stiffness, mass, wanted, shift, factor)
-    order = np.arange(rigid, wanted)
+        values, vectors = lowest_modes(stiffness, mass, total, shift, factor)
+    order = np.arange(rigid, total)
     shapes = np.stack([problem.expand(vectors[:, k]) for k in order])
     shapes /= np.abs(shapes).max(axis=(1, 2), keepdims=True)
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
     loaded = about == "deformed"
     bare = scene if loaded else scene.replace(loads=(), gravity=None)
     elastic = values[rigid:], vectors[:, rigid:]
-    gradient = partial(_gradient, bare, calibration, at, loaded, shared, *elastic)
-    found = None if problem.prestrained and not loaded else gradient
-    return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice, found)
+    gradient = partial(_frequency_gradient, bare, calibration, at, loaded, shared, *elastic)
+    gradient_of = None if problem.prestrained and not loaded else gradient
+    return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice, gradient_of)
 
 
-def _gradient(
+def _frequency_gradient(
     scene: Scene,
     calibration: Calibration,
     u: np.ndarray,
@@ -145,7 +187,7 @@ def _gradient(
     vectors: np.ndarray,
     number: int,
 ) -> ModeGradient:
-    """Return df/dθ of a mode about an equilibrium u (n, 3)."""
+    """Return the derivatives df/dθ of a mode's frequency about an equilibrium u (n, 3) [m]."""
 
     def inertia(problem: Problem, springs: Calibration) -> Any:
         return _masses(problem, shared, springs)[2]
@@ -165,7 +207,19 @@ def _masses(problem: Problem, shared: Inertia, calibration: Calibration) -> tupl
 
 
 def usual_masses(calibration: Calibration) -> Inertia:
-    """The distribution that springs vibrate with unless another is requested."""
+    """Return the default distribution of mass for natural modes.
+
+    Parameters
+    ----------
+    calibration : Calibration
+        Springs of the lattice.
+
+    Returns
+    -------
+    {"tributary", "gregory", "higher-order"}
+        The distribution of springs that were fitted to frequencies; otherwise "higher-order", or "gregory"
+        for a sheet of unequal cells.
+    """
     if calibration.masses != "tributary":
         return calibration.masses
     return "higher-order" if calibration.cells is None else "gregory"
@@ -174,35 +228,35 @@ def usual_masses(calibration: Calibration) -> Inertia:
 def frequency_slopes(
     scene: Scene, calibration: Calibration, parameters: Sequence[str], count: int
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """The `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per N/m].
+    """Return the `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per
+    N/m].
 
     dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
-    frequencies that stand alone (of equal ones it gives the slope of a mean); 0 of a motion that no spring
-    resists, and by a constant that is 0.
-    """
-    found = modes(scene, calibration, count, calibration.masses)
-    weight = masses(scene, found.lattice, calibration.masses, calibration.cells)
-    modal = np.einsum("n,knq,knq->k", weight, found.shapes, found.shapes)
+    single frequencies (of coinciding ones it gives the slope of a mean); 0 of a motion that no spring
+    resists, and by a constant that is 0."""
+    lowest = modes(scene, calibration, count, calibration.masses)
+    weight = masses(scene, lowest.lattice, calibration.masses, calibration.cells)
+    modal = np.einsum("n,knq,knq->k", weight, lowest.shapes, lowest.shapes)
 
     def stored(springs: Calibration) -> np.ndarray:
-        """φᵀ K φ of every mode, (count,)."""
+        """Return φᵀ K φ of every mode, (count,)."""
         problem = build_problem(scene, springs)
         blocks = problem.tangent(np.zeros_like(problem.loads.dead), 0.0)
-        return np.array([np.sum(shape * problem.system.apply(blocks, shape)) for shape in found.shapes])
+        return np.array([np.sum(shape * problem.system.apply(blocks, shape)) for shape in lowest.shapes])
 
-    own, slopes, of = stored(calibration), {}, 8.0 * np.pi**2 * found.frequencies
+    base, slopes, scale = stored(calibration), {}, 8.0 * np.pi**2 * lowest.frequencies
     for name in parameters:
         k = calibration.constants.value(name)
-        slopes[name] = np.zeros_like(of)
+        slopes[name] = np.zeros_like(scale)
         if k != 0.0:  # else a fit that ends without this spring
-            squares = (stored(calibration.with_constant(name, 2.0 * k)) - own) / k / modal
-            np.divide(squares, of, out=slopes[name], where=of > 0.0)
-    return found.frequencies, slopes
+            squares = (stored(calibration.with_constant(name, 2.0 * k)) - base) / k / modal
+            np.divide(squares, scale, out=slopes[name], where=scale > 0.0)
+    return lowest.frequencies, slopes
 
 
 def _shift(scene: Scene) -> float:
-    """σ = −100 E h²/(12 ρ a⁴) [1/s²], as far below zero as the lowest elastic eigenvalue of a plate is above
-    it (12 to 1300 of E h²/(12 ρ a⁴), by its supports).
+    """Return the shift σ = −100 E h²/(12 ρ a⁴) [1/s²], as far below zero as the lowest elastic eigenvalue of
+    a plate is above it (12 to 1300 of E h²/(12 ρ a⁴), by its supports).
 
     A free sheet's K − σM has the condition λ_max/|σ|, so its solutions, and with them the eigenvalues, are
     wrong by ε λ_max/|σ|: with this σ no more than the rounding of K itself, ε λ_max/λ.

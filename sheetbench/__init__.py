@@ -1,11 +1,11 @@
-"""How good is a spring lattice of a soft sheet, which k belongs to its E, and what does the speed cost?
+"""Comparison of a spring lattice of a soft sheet with finite elements: its k by E, its error, its speed.
 
     import sheetbench as sb
     scene = sb.load("two-edges-clamped")      # a name of the catalogue, a path, or sb.Scene(…)
     both = sb.compare(scene, grid=9)          # the lattice beside the shell
     both.report().save("results")
 
-A function takes a scene, a name or a path, and is loaded when it is first used. What stands behind them:
+A function takes a scene, a name or a path, and is loaded when it is first used. The parts are
 `sheetbench.scenes` (scenes), `lumped` (the lattice), `fem_reference` (the references), `comparisons`.
 """
 
@@ -17,9 +17,9 @@ from sheetbench.choices import FUNCTIONS as _FUNCTIONS
 
 _MODULES = {  # `__init__.pyi`, which type checkers read, is made of these and of the verbs: make stubs
     "comparisons.codes.cell": "Cell cell_of=cell",
-    "comparisons.comparison.comparison": "error",
     "comparisons.identification.measurements": "Displacements",
     "comparisons.models.spec": "Elements External Lattice",
+    "comparisons.sweep.differences": "error",
     "sheetbench.answers.history": "History",
     "sheetbench.answers.solution": "Solution Status",
     "sheetbench.face": "solve study",

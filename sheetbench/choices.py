@@ -1,7 +1,7 @@
-"""What is chosen by name: calibrations, integrators, references; a line about each, and the usual choice.
+"""Choices by name: calibrations, integrators, references; a line on each, and the default.
 
-Names and words alone, which the command line can have without waiting for what they stand for:
-`lumped.INTEGRATORS` and `fem_reference.MODELS` make their entries of these.
+The module has names and words alone, so that the command line's help need not import solvers:
+`lumped.INTEGRATORS` and `fem_reference.MODELS` make their entries of its names.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ Option = Literal["k", "layer_distance", "grading", "targets", "cells"]
 
 @dataclass(frozen=True)
 class Method:
-    """A calibration method: what it is, and the options that it takes."""
+    """A calibration method: a line on it, and the options that it takes."""
 
     summary: str
     takes: tuple[Option, ...] = ("layer_distance",)
 
     @property
     def fitted(self) -> bool:
-        """Whether it is fitted to targets."""
+        """Return whether the method is fitted to targets."""
         return "targets" in self.takes
 
 
 CALIBRATION = "consistent"  # unless requested another
-AUTO = "auto"  # a calibration or a grading by what the scene is
+AUTO = "auto"  # a calibration or a grading that suits the scene
 GRADED: tuple[Option, ...] = ("layer_distance", "grading")
 CELL_BY_CELL: tuple[Option, ...] = (*GRADED, "cells")
 CALIBRATIONS: dict[str, Method] = {
@@ -52,7 +52,7 @@ CALIBRATIONS: dict[str, Method] = {
     "van-gelder": Method("Van Gelder's areas over squared lengths, in each layer"),
     "lloyd": Method("off-diagonal stiffness of the bilinear element at ν = 1/3, in each layer"),
 }
-# Those that meet the moduli of every cell: as cells shrink answers tend to the sheet's.
+# methods that match the moduli of every cell: answers converge to the sheet's with smaller cells
 EXTRAPOLATED = tuple(name for name, method in CALIBRATIONS.items() if method.takes == CELL_BY_CELL)
 
 MASSES = {
@@ -106,13 +106,13 @@ ELEMENTS = 16  # along the shorter side
 
 
 def method_of(calibration: str | None, k: float | None) -> str:
-    """The calibration meant: the one named, else `uniform` where k is given, else the usual one, whose
-    options those of `auto` are."""
+    """Return the requested calibration: the named one, else `uniform` if k is given, else the default. `auto`
+    has the options of the default."""
     named = CALIBRATION if calibration == AUTO else calibration
     return named or ("uniform" if k is not None else CALIBRATION)
 
 
 def listed(names: Iterable[str], link: str = "or") -> str:
-    """The names as a sentence has them: a, b or c."""
+    """Return names as in a sentence: a, b or c."""
     *first, last = names
     return f"{', '.join(first)} {link} {last}" if first else last

@@ -1,7 +1,7 @@
-"""A clock that stands still while kernels are compiled or loaded.
+"""A clock that stops while kernels are compiled or loaded.
 
-A machine compiles them once and a process loads them once: neither is time to set up or to solve.
-Compiling happens on the thread that calls, so each thread has a clock of its own.
+A machine compiles kernels once and a process loads them once: neither belongs to the time of a set-up or of a
+solve. The calling thread compiles, so that each thread has a clock of its own.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from time import perf_counter
 _total = [0.0]  # s, compiled in this process
 
 
-class _Stopped(threading.local):
-    """Seconds for which the clock stood still, how deep kernels that call kernels are nested, since when."""
+class _Pauses(threading.local):
+    """Total time of the clock's pauses [s], depth of nested ones, start of the present one [s]."""
 
     seconds, depth, since = 0.0, 0, 0.0
 
 
-_stopped = _Stopped()
+_pauses = _Pauses()
 
 
 def now() -> float:
-    """Return the time [s] from some moment on, without what went to compiling."""
-    running = _stopped.since if _stopped.depth else perf_counter()
-    return running - _stopped.seconds
+    """Return the time [s] since an arbitrary origin, without pauses for compiling."""
+    running = _pauses.since if _pauses.depth else perf_counter()
+    return running - _pauses.seconds
 
 
 def compiled() -> float:
@@ -35,24 +35,24 @@ def compiled() -> float:
 
 
 def stop() -> None:
-    """Stand still; may be nested."""
-    if _stopped.depth == 0:
-        _stopped.since = perf_counter()
-    _stopped.depth += 1
+    """Stop the clock; calls may be nested."""
+    if _pauses.depth == 0:
+        _pauses.since = perf_counter()
+    _pauses.depth += 1
 
 
 def start() -> None:
-    """Go on, after as many calls as `stop` had."""
-    _stopped.depth -= 1
-    if _stopped.depth == 0:
-        spent = perf_counter() - _stopped.since
-        _stopped.seconds += spent
+    """Start the clock again after a call for each call of `stop`."""
+    _pauses.depth -= 1
+    if _pauses.depth == 0:
+        spent = perf_counter() - _pauses.since
+        _pauses.seconds += spent
         _total[0] += spent
 
 
 @contextmanager
 def stopped() -> Iterator[None]:
-    """Stand still within the block."""
+    """Stop the clock within the block."""
     stop()
     try:
         yield

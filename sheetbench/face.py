@@ -1,8 +1,7 @@
-"""Functions of `import sheetbench`: the verbs of the command line, made from the same declarations, and one
-model's answer alone.
+"""Functions of `import sheetbench`: the verbs, studies, and the static answer of one model.
 
-Those with `workers` compute in processes of their own: a script calls them under `if __name__ ==
-"__main__":`.
+Verbs are made from the declarations of the command line. Functions with `workers` start processes: a script
+calls them under `if __name__ == "__main__":`.
 """
 
 from __future__ import annotations
@@ -29,8 +28,25 @@ def verb(name: str) -> Callable[..., Any]:
 
 
 def study(name: str, **options: Any) -> Any:
-    """Return the answer of a study: "reproduction", and in a checkout those of `studies`; options: its own,
-    as of `sheetbench study NAME --help`."""
+    """Return the answer of a study.
+
+    Parameters
+    ----------
+    name : str
+        "reproduction" or, in a checkout, a folder of `studies`.
+    **options
+        The study's own options, listed by `sheetbench study NAME --help`.
+
+    Returns
+    -------
+    Answer
+        The study's tables, figures and notes.
+
+    Raises
+    ------
+    BadInput
+        An unknown study or option.
+    """
     return as_function(name, module_of(str(name)).command)(**options)
 
 
@@ -42,13 +58,41 @@ def solve(
     progress: Callable[[Any], None] | None = None,
     **settings: Any,
 ) -> Solution:
-    """The static answer of one model: a spec, as `Lattice`, or "lumped", "plate", "shell", "solid", or a
-    plug-in's name, or text as "lumped:grid=9x5,k=550".
+    """Solve a static scene with one model.
 
-    settings: further ones of the model; of the lattice `grid`, `grading`, `calibration`, `k`,
-    `layer_distance`; of the references `elements`. Raises SceneError for a scene that could float away,
-    BadInput for a model or setting that does not exist and for one that takes more memory than there is,
-    unless `large = True`; a solve that fails is a status.
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        A scene, a catalogue name or a path to a TOML file.
+    model : Lattice, Elements, External or str
+        A specification, a name ("lumped", "plate", "shell", "solid" or a plug-in's), or a text as
+        "lumped:grid=9x5,k=550".
+    large : bool
+        Allow a solve that needs more memory than is free.
+    progress : callable, optional
+        Called with the progress of the solve.
+    **settings
+        Further settings of the model: of the lattice `grid`, `grading`, `calibration`, `k`,
+        `layer_distance`; of the references `elements`.
+
+    Returns
+    -------
+    Solution
+        The answer; a solve that fails has the failure as its status.
+
+    Raises
+    ------
+    SceneError
+        A scene with a free rigid motion.
+    BadInput
+        An unknown model or setting, or too little memory.
+
+    Examples
+    --------
+    >>> import sheetbench as sb
+    >>> solution = sb.solve("two-edges-clamped", grid=5)
+    >>> str(solution.status)
+    'converged'
     """
     spec = parse(model) if isinstance(model, str) else model
     if not isinstance(spec, Spec):

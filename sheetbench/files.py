@@ -1,8 +1,8 @@
-"""Files of results: whole or absent, with one writer at a time, and a line that says so where they cannot be.
+"""Files of results: whole or absent, with one writer at a time, and a line on the reason of a failure.
 
-A file is written beside its name and moved there when done. What stood there stays as it was until then.
-Only a regular file is replaced: links, devices, pipes and folders are refused. What a killed writer left
-beside a name is removed by the next that writes there.
+A file is written under a temporary name and renamed when it is complete; until then an older file stays.
+Only a regular file is replaced: links, devices, pipes and folders are refused. The temporary file of a killed
+writer is removed by the next writer of that name.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ REMEDIES = {
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """Around what writes a file: a full disk, a missing right, … is a BadInput that names file and remedy."""
+    """Turn errors of writing a file, as a full disk, into BadInput with the file's name and a remedy."""
     try:
         yield
     except OSError as error:
-        if error.errno not in REMEDIES or _elsewhere(error.filename, path):
+        if error.errno not in REMEDIES or _is_elsewhere(error.filename, path):
             raise
         reason = (error.strerror or str(error)).lower()
         raise BadInput(f"{path}: cannot be written, {reason}: {REMEDIES[error.errno]}") from error
@@ -53,11 +53,11 @@ def writing(path: Path) -> Iterator[None]:
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A path with the same suffix to write to; what was written takes `path`'s place at the end."""
+    """Yield a temporary path with the suffix of `path`; the file there replaces `path` at the end."""
     partial = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
     with writing(path):
         require_file(path)
-        _clear(path)
+        _remove_partial_files(path)
         partial.unlink(missing_ok=True)  # of a killed writer that had this process's number
         os.close(os.open(partial, os.O_CREAT | os.O_EXCL | NOT_FOLLOWED, 0o666))
         try:
@@ -69,7 +69,7 @@ def whole(path: Path) -> Iterator[Path]:
 
 
 def require_file(path: Path) -> None:
-    """Raise BadInput where something stands that is not a regular file, and so must not be replaced."""
+    """Raise BadInput if a path is something else than a regular file, which must not be replaced."""
     with writing(path):
         try:
             mode = os.lstat(path).st_mode
@@ -82,9 +82,9 @@ def require_file(path: Path) -> None:
 
 @contextmanager
 def only_writer(folder: Path) -> Iterator[None]:
-    """Be the only process that writes into a folder, until the end or the death of this one.
+    """Lock a folder for writing, until the end of the block or of the process.
 
-    Raises BadInput where another process is. What the lock is held on, `.lock`, stays behind empty.
+    Raises BadInput if another process holds the lock. The empty file `.lock` stays.
     """
     path = folder / LOCK
     with writing(path):
@@ -99,23 +99,23 @@ def only_writer(folder: Path) -> Iterator[None]:
         yield
 
 
-def _elsewhere(named: object, path: Path) -> bool:
-    """Whether an error names a file that is neither beside `path` nor on the way to it."""
+def _is_elsewhere(named: object, path: Path) -> bool:
+    """Return whether an error names a file outside the folder of `path` and its parents."""
     if not isinstance(named, str):
         return False
     return Path(named).parent != path.parent and not path.is_relative_to(named)
 
 
-def _clear(path: Path) -> None:
-    """Remove what killed writers left beside a name."""
+def _remove_partial_files(path: Path) -> None:
+    """Remove the temporary files of killed writers of a path."""
     for name in os.listdir(path.parent):
         match = PARTIAL.fullmatch(name)
         same = match and (match["stem"], match["suffix"] or "") == (path.stem, path.suffix)
-        if match and same and not _lives(int(match["process"])):
+        if match and same and not _is_alive(int(match["process"])):
             (path.parent / name).unlink(missing_ok=True)
 
 
-def _lives(process: int) -> bool:
+def _is_alive(process: int) -> bool:
     try:
         os.kill(process, 0)
     except ProcessLookupError:

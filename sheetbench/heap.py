@@ -1,13 +1,13 @@
-"""What glibc's malloc does with memory that arrays free: a setting of the process, not of a library's."""
+"""Setting of glibc's malloc for memory that arrays free, for a whole process."""
 
 
 def keep_freed_memory() -> None:
-    """Have this process keep the memory that arrays of up to 31 MB free, and use it again.
+    """Let the process reuse the memory that arrays of up to 31 MB free.
 
-    Without it the system takes that back after every factorisation and clears it again: a shell takes 1.08
-    times as long on 8 × 8 elements and 1.05 times on 16 × 16. Factors and their workspace allocated once for
-    a pattern have the first back and not the second: on larger meshes it is the elements' matrices as much as
-    the factors. Allocated, never touched and freed, an array raises the threshold that glibc gives memory
-    back from; under other systems nothing changes.
+    Otherwise the system takes the memory back after every factorisation and clears it: a shell takes 1.08
+    times as long on 8 × 8 elements and 1.05 times on 16 × 16. Allocating factors and their workspace once for
+    a pattern would save only the first of the two: on larger meshes the elements' matrices cost as much. An
+    array that is allocated, never touched and freed raises glibc's threshold for returning memory; on other
+    systems nothing changes.
     """
     bytes(31 << 20)

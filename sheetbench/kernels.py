@@ -1,12 +1,12 @@
-"""Place of the compiled kernels on disk, and a line of the log where one is compiled.
+"""Cache folder of the compiled kernels, and a line of the log when one is compiled.
 
-numba compiles a function anew when its own file changes, and goes on with the old machine code where only a
-file whose functions it calls has changed. So this project adds a locator to numba's list, which answers for
-its own files alone: a folder named by a digest of all files that hold kernels. numba's settings, its other
-locators, and functions of other packages are left as they are.
+numba compiles a function anew when its own file changes, but keeps the old machine code when only a file with
+functions that it calls has changed. So this project adds a locator to numba's list, for its own files alone:
+a folder named by a digest of all files with kernels. numba's settings, its other locators, and functions of
+other packages stay unchanged.
 
-The folder lies in NUMBA_CACHE_DIR where the user has set it, else in the user's cache, and where that cannot
-be written in a copy of it that goes with the process.
+The folder lies in NUMBA_CACHE_DIR if the user has set it, else in the user's cache; if it cannot be written,
+the process uses a temporary copy.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from sheetbench import clock
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = tuple(ROOT / name for name in ("lumped", "fem_reference", "sheetbench"))
-WITH_KERNELS = re.compile(rb"\b(njit|inner|intrinsic|NamedTuple)\b")  # also the tuples that kernels take
+WITH_KERNELS = re.compile(rb"\b(njit|inner|intrinsic|NamedTuple)\b")  # also tuples passed to kernels
 NOTICE = "compiling for this machine, once: about half a minute …"
 
 
@@ -47,7 +47,7 @@ class KernelLocator(caching.UserWideCacheLocator):  # type: ignore[misc]  # numb
 
     @classmethod
     def from_function(cls, function: Any, file: str) -> KernelLocator | None:
-        """Return the locator of a function in this project's files, else None: numba's own then follow."""
+        """Return the locator of a function in this project's files, else None for numba's own locators."""
         path = Path(file).resolve()
         if not any(map(path.is_relative_to, PACKAGES)):
             return None
@@ -57,7 +57,7 @@ class KernelLocator(caching.UserWideCacheLocator):  # type: ignore[misc]  # numb
 
 @cache
 def folder(file: str) -> Path:
-    """Return where the kernels of a source file are kept."""
+    """Return the folder of the kernels of a source file."""
     parts = Path(file).resolve().relative_to(ROOT).with_suffix("").parts
     return Path(root(), f"kernels-{digest()}", ".".join(parts))
 
@@ -70,19 +70,19 @@ def root() -> Path:
         place.mkdir(parents=True, exist_ok=True)
     if os.access(place, os.W_OK | os.X_OK):
         return place
-    passing = mkdtemp(prefix="sheetbench-")
-    atexit.register(shutil.rmtree, passing, ignore_errors=True)
-    kept = f"kernels-{digest()}"
-    if (place / kept).is_dir():
-        shutil.copytree(place / kept, Path(passing, kept))
+    temporary = mkdtemp(prefix="sheetbench-")
+    atexit.register(shutil.rmtree, temporary, ignore_errors=True)
+    kernels = f"kernels-{digest()}"
+    if (place / kernels).is_dir():
+        shutil.copytree(place / kernels, Path(temporary, kernels))
     logging.getLogger("sheetbench").info(
         "%s cannot be written: kernels are kept as long as the process", place
     )
-    return Path(passing)
+    return Path(temporary)
 
 
 def compiled_before(file: str) -> bool:
-    """Return whether machine code of kernels of a source file is kept."""
+    """Return whether the cache holds machine code of a source file's kernels."""
     return any(folder(file).glob("*.nbi"))
 
 

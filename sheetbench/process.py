@@ -1,7 +1,7 @@
 """Run a program within limits of time, memory and output; its failure is one line.
 
-The program leads a process group of its own, which is killed at the end. It writes to files, not to pipes,
-whose ends what has left that group and lives on might hold.
+The program leads a process group of its own, which is killed at the end. It writes to files: the ends of
+pipes could be held open by a surviving process that has left the group.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from sheetbench.errors import foreign
 ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "RAYON")}
 MOST = 2**24  # bytes of standard output
 TAIL = 2000  # bytes of standard error that are read
-POLL = 0.05  # s between looks at the time and at how much it has written
+POLL = 0.05  # s between checks of the time and of the output's size
 
 
 @dataclass(frozen=True)
 class Ended:
-    """How a program ended: its exit status, negative for a signal, its output, why it was stopped."""
+    """End of a program: its exit status, negative for a signal, its output, the reason if it was stopped."""
 
     code: int
     answer: bytes
@@ -36,14 +36,14 @@ class Ended:
 
     @property
     def reason(self) -> str:
-        """What went wrong in a phrase; nothing where nothing did."""
+        """Return the failure in a phrase, "" without one."""
         if self.stopped or not self.code:
             return self.stopped
         return f"ended by {Signals(-self.code).name}" if self.code < 0 else f"exit status {self.code}"
 
     @property
     def fault(self) -> str:
-        """The same with the program's last words."""
+        """Return the failure with the program's last line, "" without one."""
         return f"{self.reason}: {self.complaint}" if self.reason and self.complaint else self.reason
 
 
@@ -57,10 +57,10 @@ def run(
     folder: Path | None = None,
     variables: Mapping[str, str] | None = None,
 ) -> Ended:
-    """Run a program on a question for standard input.
+    """Run a program with a question on its standard input.
 
-    seconds: after which it is stopped; memory_mb: of address space, None for no limit (the shell's ulimit);
-    most: bytes of answer; folder: to run it in; variables: of its environment, beside ours.
+    seconds: limit of time. memory_mb: limit of address space by the shell's ulimit, None for none. most:
+    limit of the answer's size [bytes]. folder: working directory. variables: added to the environment.
     """
     if memory_mb is not None:
         command = ["sh", "-c", 'ulimit -v "$0" && exec "$@"', str(1024 * memory_mb), *command]
@@ -80,20 +80,20 @@ def run(
             try:
                 stopped = ""
                 while not stopped and process.returncode is None:
-                    left = started + seconds - perf_counter()
+                    remaining = started + seconds - perf_counter()
                     with suppress(subprocess.TimeoutExpired):
-                        process.wait(max(0.0, min(POLL, left)))
+                        process.wait(max(0.0, min(POLL, remaining)))
                     if max(os.fstat(file.fileno()).st_size for file in (answer, complaint)) > most:
                         stopped = f"more than {most // 2**20} MB of answer"
-                    elif left <= 0.0 and process.returncode is None:
+                    elif remaining <= 0.0 and process.returncode is None:
                         stopped = f"no answer within {seconds:g} s"
                 took = perf_counter() - started
             finally:
-                # all gone; macOS says PermissionError of what is dying
+                # the group is gone; macOS raises PermissionError for a dying process
                 with suppress(ProcessLookupError, PermissionError):
                     os.killpg(process.pid, SIGKILL)
         answer.seek(0)
         complaint.seek(max(0, complaint.seek(0, os.SEEK_END) - TAIL))
         lines = complaint.read().decode("utf-8", "replace").strip().splitlines()
-        said = foreign(lines[-1]) if lines else ""
-        return Ended(process.returncode, answer.read(most), said, stopped, took)
+        last_line = foreign(lines[-1]) if lines else ""
+        return Ended(process.returncode, answer.read(most), last_line, stopped, took)

@@ -1,4 +1,4 @@
-"""Which code a result is of: the installed version, and a digest of the packages' files."""
+"""Identity of the code that made a result: the installed version, and a digest of the packages' files."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def version() -> str:
 
 @cache
 def source() -> str:
-    """Return a digest of every Python file of the packages: a result is of this code and no other."""
+    """Return a digest of every Python file of the packages, which identifies the code of a result."""
     root = Path(__file__).parents[1]
     paths = [path for package in PACKAGES for path in (root / package).rglob("*.py")]
     return digest({path.relative_to(root).as_posix(): path for path in paths})
 
 
 def digest(files: Mapping[str, Path]) -> str:
-    """Sixteen digits that follow from the files' names and contents."""
+    """Return sixteen digits of a hash of the files' names and contents."""
     total = hashlib.sha256()
     for name, path in sorted(files.items()):
         total.update(f"{name}\0{hashlib.sha256(path.read_bytes()).hexdigest()}\n".encode())

@@ -1,7 +1,7 @@
-"""The laboratory: studies of the models, run from a checkout by `sheetbench study NAME`.
+"""Studies of the models, run from a checkout by `sheetbench study NAME`.
 
 A study is a folder of this package with a module `command`, whose function `command` has the study's options
-as its parameters. Nothing here is installed; the packages import none of it but by that name. Results are
+as its parameters. Nothing here is installed; the packages import a study by its name alone. Results are
 kept in `results`, and `pages` makes the documentation's tables of them.
 """
 

@@ -1,9 +1,10 @@
-"""Results as they are kept, `results/NAME.json`, and the pages that the documentation's build makes of them.
+"""Kept results, `results/NAME.json`, and the pages that the documentation's build makes of them.
 
-A file has the words of a report, every table with its rows in SI units, and in `made` when and with what it
-was measured: `keep` writes it, `kept` returns the report again, whose `to_markdown()` is the page.
+A file has the words of a report, every table with its rows in SI units, and in `made` the date, version and
+machine of the measurement: `keep` writes it, `kept` returns the report again, whose `to_markdown()` is the
+page.
 
-    python -m studies.pages FOLDER    keeps what a study or a verb has written with --out FOLDER
+    python -m studies.pages FOLDER    keeps the answer that a study or a verb has written with --out FOLDER
 """
 
 from __future__ import annotations
@@ -29,10 +30,13 @@ DEFAULTS = plain(asdict(Column()))
 
 
 def keep(report: Report, name: str = "", made: str = "") -> Path:
-    """Write a report's tables and words to the kept results of that name, the report's own unless given;
-    where they are. made: when and with what, today and this machine unless given."""
-    here = f"sheetbench {version()}, Python {platform.python_version()}, {platform.machine()}"
-    words = {"made": made or f"{here}, {datetime.now(UTC).date()}", **{k: getattr(report, k) for k in WORDS}}
+    """Write a report's tables and words to the kept results, and return the file. name: of the results, the
+    report's own by default; made: date and machine, today and this machine by default."""
+    machine = f"sheetbench {version()}, Python {platform.python_version()}, {platform.machine()}"
+    words = {
+        "made": made or f"{machine}, {datetime.now(UTC).date()}",
+        **{k: getattr(report, k) for k in WORDS},
+    }
     tables = ",\n".join(map(_text, report.tables))
     path = RESULTS / f"{name or report.name}.json"
     head = json.dumps(plain(words), ensure_ascii=False, indent=1).removesuffix("\n}")
@@ -41,7 +45,7 @@ def keep(report: Report, name: str = "", made: str = "") -> Path:
 
 
 def _text(table: Table) -> str:
-    """Return a table as JSON, a row a line."""
+    """Return a table as JSON, one line per row."""
     words = table.words() | {"rows": [[_plain(value) for value in row] for row in table.rows]}
     columns = plain(words["columns"])
     words["columns"] = [{k: v for k, v in c.items() if v != DEFAULTS.get(k, False)} for c in columns]
@@ -54,7 +58,7 @@ def _plain(value: Any) -> Any:
 
 
 def kept(name: str) -> Report:
-    """Return the report that was kept under a name; its last note says when it was made."""
+    """Return the report that was kept under a name; its last note has the date, version and machine."""
     document = json.loads((RESULTS / f"{name}.json").read_text(encoding="utf-8"))
     words: dict[str, Any] = {k: tuple(document[k]) if k in LISTS else document[k] for k in WORDS}
     words["notes"] += (f"{document['made']}.",)
@@ -62,24 +66,24 @@ def kept(name: str) -> Report:
 
 
 def _table(words: dict[str, Any]) -> Table:
-    """Return a table of its words and rows."""
-    of_units = [column.pop("units", False) for column in words["columns"]]
+    """Return a table from its words and rows."""
+    unit_columns = [column.pop("units", False) for column in words["columns"]]
     columns = tuple(Column(**column) for column in words["columns"])
     rows = (
-        tuple(unit(value) if is_unit else value for is_unit, value in zip(of_units, row, strict=True))
+        tuple(unit(value) if is_unit else value for is_unit, value in zip(unit_columns, row, strict=True))
         for row in words["rows"]
     )
     return Table(words["caption"], columns, tuple(rows), words["name"], words["grouped"], words["text"])
 
 
 def keep_run(folder: Path) -> Path:
-    """Keep the answer that a run has written into a folder; where it is. Raises ValueError unless there is
-    one."""
+    """Keep the answer that a run has written into a folder, and return the file. Raises ValueError for a
+    folder without an answer."""
     (run,) = runs.read(folder).studies
     words = run.words
-    known: dict[str, Any] = {k: tuple(words[k]) if k in LISTS else words[k] for k in WORDS}
+    report_words: dict[str, Any] = {k: tuple(words[k]) if k in LISTS else words[k] for k in WORDS}
     name = words["document"].removesuffix(".json")
-    return keep(Report(name=name, document={}, tables=tuple(tables(run)), **known))
+    return keep(Report(name=name, document={}, tables=tuple(tables(run)), **report_words))
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from sheetbench.answers.balance import dead_force
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, SceneError
 from sheetbench.scenes import Point, Scene, Sheet, free_rigid_motions, load
+from sheetbench.scenes.meaning.words import in_words
 
 LENGTH, WIDTH, THICK, YOUNG, FORCE = 0.2, 0.02, 3e-3, 5e6, 1e-6
 TIP = [[LENGTH, WIDTH / 2.0]]
@@ -227,11 +228,9 @@ def test_what_is_missing_or_nowhere_is_said():
 
 def round_sheet(**support):
     """A disc of radius 0.1 about (0.1, 0.1), pressed a little."""
-    turn = np.linspace(0.0, 2.0 * np.pi, 129)[:-1]
-    corners = 0.1 + 0.1 * np.column_stack([np.cos(turn), np.sin(turn)])
     return Scene(
         name="disc",
-        sheet=Sheet(0.2, 0.2, 0.002, outline=tuple(map(tuple, corners.tolist()))),
+        sheet=Sheet(0.2, 0.2, 0.002, outline="disc"),
         material={"young": 1e6, "poisson": 0.3, "density": 1e3},
         supports=({"where": "rim", **support},),
         loads=({"kind": "pressure", "value": 0.01},),
@@ -241,7 +240,7 @@ def round_sheet(**support):
 
 @pytest.mark.parametrize("kind", ["clamped", "hinged"])
 def test_a_round_rim_is_held_in_closed_form(kind):
-    """w = q a⁴/64 D, and (5 + ν)/(1 + ν) times that with a hinge; a polygon of 128 sides has 0.1 % less."""
+    """w = q a⁴/64 D, and (5 + ν)/(1 + ν) times that with a hinge; the disc's area but for 0.01 %."""
     scene = round_sheet(kind=kind)
     rigidity = 1e6 * 0.002**3 / 12 / (1 - 0.3**2)
     exact = 0.01 * 0.1**4 / 64 / rigidity * (5.3 / 1.3 if kind == "hinged" else 1.0)
@@ -251,14 +250,29 @@ def test_a_round_rim_is_held_in_closed_form(kind):
     assert sum(shell.reactions.values())[2] == pytest.approx(-0.01 * np.pi * 0.1**2, rel=1e-3)
     if kind == "hinged":
         with pytest.raises(
-            BadInput, match=r"support 1\.where: the lattice holds round and oblique rims clamped"
+            BadInput, match=r"support 1\.where: the lattice holds .* rims clamped alone: masses .* slope"
         ):
             lumped.solve(scene, calibrated(scene, 9))
         return
+    assert scene.region.area == pytest.approx(np.pi * 0.1**2, rel=1.01e-4)
     for masses, off in ((9, 0.065), (17, 0.04)):
         lattice = lumped.solve(scene, calibrated(scene, masses))
         assert lattice.displacement(scene.probe_points())[0, 2] == pytest.approx(exact, rel=off + 0.005)
         assert lattice.balance.holds
+
+
+def test_a_disc_is_one_word_in_a_file_too(tmp_path):
+    """Round in the rectangle of its sides, an ellipse where these differ."""
+    text = 'name = "d"\n[sheet]\nlength_x = "3 cm"\nlength_y = 0.02\nthickness = 1e-3\noutline = "disc"\n'
+    text += "[gravity]\nacceleration = [0.0, 0.0, -9.81]\n"
+    text += "[material]\nyoung = 1e6\npoisson = 0.3\ndensity = 1000.0\n"
+    (tmp_path / "d.toml").write_text(text + '[[support]]\nkind = "clamped"\nwhere = "rim"\n')
+    found = load(str(tmp_path / "d.toml"))
+    assert found.region.area == pytest.approx(np.pi * 0.015 * 0.01, rel=1.01e-4)
+    assert "(an ellipse)" in dict(in_words(found))["sheet"]
+    assert Scene.model_validate(found.document()) == found
+    with pytest.raises(SceneError, match="mesh_scale: is of a file"):
+        found.replace(outline="disc", mesh_scale=1e-3)
 
 
 def test_rims_are_edges_or_holes_by_their_numbers():

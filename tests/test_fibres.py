@@ -7,6 +7,8 @@ from cases import calibrated, relative, sheet
 import fem_reference
 import lumped
 import lumped.plies
+from comparisons.models.resolve import resolve
+from comparisons.models.spec import Lattice
 from fem_reference.surface import plies
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Material, Scene, SceneError, load
@@ -269,9 +271,13 @@ def test_stiffnesses_of_no_sheet_are_refused(thickness, own, said):
 
 
 @pytest.mark.nightly
-def test_a_hanging_fabric_is_alike_in_lattice_and_shell():
-    scene = fabric()
+@pytest.mark.parametrize(("side", "grading"), [("30 mm", None), ("55 mm", 0.5)])
+def test_a_hanging_fabric_is_alike_in_lattice_and_shell(side, grading):
+    """It bends within (D/ρgh)^⅓ = 11 mm of the clamp. At 55 mm even cells are 4.3, 1.07 and 0.34 % off on 9,
+    17 and 33 masses, second order in the cell over that length; smaller ones there 0.6 % on 17."""
+    scene = Scene(**FABRIC | {"sheet": {"length_x": side, "length_y": side}})
     points = scene.probe_points()
-    lattice = lumped.solve(scene, calibrated(scene, 17)).displacement(points)
+    springs = resolve(scene, Lattice(17, grading=grading)).springs
+    lattice = lumped.solve(scene, springs).displacement(points)
     shell = fem_reference.solve(scene, "shell", elements=16).displacement(points)
     assert np.abs(lattice - shell).max() < 0.01 * np.abs(shell).max()

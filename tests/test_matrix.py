@@ -167,6 +167,19 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         ((), ("--calibration", "hyperelastic"), ("--k", "550"), ("--grading", "auto")),
         OUTPUTS[:3],
     ],
+    "calibrate --from": [
+        (
+            ("newton", "tri_ke=1e3,tri_ka=1e3,edge_ke=10"),
+            ("sofa", "youngModulus=2e4,poissonRatio=0.3,bendingStiffness=1e4"),
+            ("genesis", "stretch_compliance=1e-7,bending_compliance=1e-5,rho=4"),
+            ("pybullet", "springElasticStiffness=40,layers=0.03"),
+            ("c-ipc", "E=8210,nu=0.243,thickness=0.318e-3,bendingStiffMult=100"),
+        ),
+        ((), ("--spacing", "0.1"), ("--spacing", "5mm")),
+        ((), ("--cell", "equilateral"), ("--cell", "one-diagonal")),
+        ((), ("--density", "1000"), ("--density", "1.1g/cm3")),
+        LITTLE,
+    ],
     "calibrate --cell": [
         (("equilateral",), ("one-diagonal",), ("alternate-diagonals",)),
         (("one-edge-clamped",), ("{weightless}",)),

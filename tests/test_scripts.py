@@ -190,14 +190,18 @@ def test_a_notebook_runs_and_prints_what_it_keeps(path):
 
 
 MODULES = [
+    "comparisons.sweep.differences",
     "fem_reference",
     "fem_reference.linear_buckling",
     "fem_reference.vibration",
+    "lumped.dynamics.integrators",
     "lumped.dynamics.runs.simulation",
+    "lumped.fitting.identifiability",
     "lumped.fitting.methods",
     "lumped.statics.buckling",
     "lumped.statics.solver",
     "lumped.vibration",
+    "sheetbench.face",
     "sheetbench.numerics.eigenmodes",
     "sheetbench.numerics.cache",
     "sheetbench.numerics.stability",

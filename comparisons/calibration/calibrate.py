@@ -1,5 +1,5 @@
-"""The springs of a sheet and material: those of a scene, of values alone, or of a scene changed by values;
-and the answer of `sheetbench calibrate`.
+"""Springs of a sheet and material, given by a scene, by values, or by a scene with changed values: the answer
+of `sheetbench calibrate`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from warnings import warn
 
 import lumped
 from comparisons.calibration import damping
-from comparisons.calibration.damping import UNDAMPED
 from comparisons.models.expected_error import MOST, ExpectedError, expected_error
 from comparisons.models.grading import choice_notes
 from comparisons.models.quantities import checked
@@ -33,35 +32,35 @@ from sheetbench.scenes.language.toml import dumps
 from sheetbench.scenes.meaning.plausibility import material_slips, sheet_slips
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.grading import as_settings
+from sheetbench.scenes.objects.material import UNDAMPED
 
 DENSITY = 1000.0  # kg/m³, unless given
 NEEDED = {"young": "young", "poisson": "poisson", "thickness": "thickness", "length_x": "side"}
 
 
 def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "") -> Scene:
-    """Return the scene with these keys of its sheet and material in place of its own; without a scene the
-    sheet that they describe, clamped at one edge under its own weight.
+    """Return a scene with other values of its sheet and material, by default the sheet of the given values,
+    clamped at one edge under its own weight.
 
-    values: None where a key is not given; option: what stands before a key where the user reads it, as "--".
-    Probes go where the sheet is another. Raises BadInput for what is missing or out of bounds, and warns of
-    what the values make implausible.
+    values: by key, None if not given; option: prefix of keys in messages, as "--". Probes are dropped if the
+    sheet changes. Raises BadInput for a missing or invalid value, and warns about implausible values.
     """
     given = {key: value for key, value in values.items() if value is not None}
-    known: list[str] = []  # slips of the scene's own, which loading it has warned of
+    reported: list[str] = []  # slips of the scene itself, reported when it was loaded
     parts: dict[type[Sheet] | type[Material], dict[str, Any]] = {Sheet: {}, Material: {"density": DENSITY}}
     loaded = None if scene is None else scene_of(scene)
     if loaded is not None:
-        known = [*sheet_slips(loaded.sheet), *material_slips(loaded.material)]
+        reported = [*sheet_slips(loaded.sheet), *material_slips(loaded.material)]
         parts = {Sheet: loaded.sheet.model_dump(), Material: loaded.material.model_dump()}
     elif missing := [option + name for key, name in NEEDED.items() if key not in given]:
         raise BadInput(f"missing {', '.join(missing)}; give them, or a SCENE to take them from")
     if {"loss_factor", "relaxation"} & given.keys():
-        parts[Material] |= UNDAMPED  # what is given takes the place of the scene's own
+        parts[Material] |= UNDAMPED  # given damping replaces the scene's
     for kind, data in parts.items():
         data |= {key: value for key, value in given.items() if key in kind.model_fields}
     sheet, material = checked(Sheet, parts[Sheet], option), checked(Material, parts[Material], option)
     for slip in [*sheet_slips(sheet), *material_slips(material)]:
-        if slip not in known:
+        if slip not in reported:
             warn(Implausible(slip), stacklevel=3)
     if loaded is None:
         return training_scenes(sheet, material)[0]
@@ -70,25 +69,24 @@ def subject(scene: AnyScene | None, values: Mapping[str, Any], option: str = "")
 
 
 def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Calibration:
-    """Return the springs of a lattice for a scene's sheet and material, whatever [springs] the scene has.
+    """Return the springs of a lattice for a scene's sheet and material, independent of the scene's [springs].
 
-    named: whether the user named the scene: a fitted method trains on it, "auto" goes by it, and what is
-    known before solving of how far its answer will be off is among the notes. Raises BadInput for a lattice
-    that cannot be had, and for a fit that takes more memory than there is.
+    named: whether the user named the scene: a fitted method then trains on it, and "auto" chooses by it.
+    Raises BadInput for an impossible lattice, and for a fit that needs more memory than is free.
     """
-    for name, what in (("calibration", lattice.calibration), ("grading", lattice.grading)):
-        if what == AUTO and not named:
+    for name, value in (("calibration", lattice.calibration), ("grading", lattice.grading)):
+        if value == AUTO and not named:
             raise BadInput(
                 f"{name} = auto: goes by the edges and load of a SCENE; name one, or another {name}"
             )
-    found = resolve(scene, lattice, "springs", own=False)
-    springs = found.calibrated([scene] if named else None)
-    return replace(springs, remarks=(*choice_notes(found.settings), *springs.remarks))
+    model = resolve(scene, lattice, "springs", own=False)
+    springs = model.calibrated([scene] if named else None)
+    return replace(springs, remarks=(*choice_notes(model.settings), *springs.remarks))
 
 
 def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
-    """Return the grid error to expect of these springs in a scene, from two solves of it; None too where the
-    scene has no static answer or the lattice is too large to be solved for a remark."""
+    """Return the expected grid error of springs in a scene, from two solves, if there is an estimate, the
+    scene has a static answer, and the lattice has at most MOST masses."""
     if prod(springs.grid[:2]) > MOST or springs.method not in EXTRAPOLATED:
         return None
     try:
@@ -100,14 +98,14 @@ def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
     def answer(spec: Lattice) -> Solution:
         return solve(resolve(scene, spec))
 
-    found = expected_error(scene, lattice, answer(lattice), answer)
-    return found if isinstance(found, ExpectedError) else None
+    estimate = expected_error(scene, lattice, answer(lattice), answer)
+    return estimate if isinstance(estimate, ExpectedError) else None
 
 
 @dataclass(frozen=True, repr=False)
 class SheetCalibration(Calibration):
-    """Springs for a scene's sheet; found: the same with what data tell of them; expected: the error of their
-    grid in the scene, where it is known; lattice: files for another code, and what is not in them."""
+    """Springs for a scene's sheet; found: the calibration with its report; expected: their expected grid
+    error in the scene, if known; lattice: files for another code, and notes on features missing there."""
 
     found: Calibration = field(kw_only=True, repr=False)
     scene: Scene = field(kw_only=True)
@@ -118,8 +116,8 @@ class SheetCalibration(Calibration):
         return (*self.found.heading()[:2], sheet_in_words(self.scene.sheet, self.scene.material))
 
     def document(self) -> dict[str, Any]:
-        known = {} if self.expected is None else {"expected_error": self.expected.as_dict()}
-        return self.found.document() | known | damping.document(self.scene.material)
+        expected = {} if self.expected is None else {"expected_error": self.expected.as_dict()}
+        return self.found.document() | expected | damping.document(self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
         return (*self.found.tables(), *damping.tables(self.scene.material))
@@ -133,8 +131,8 @@ class SheetCalibration(Calibration):
 
 
 def to_toml(springs: Calibration) -> str:
-    """Return the [springs] table for pasting into a scene, with the lattice that it is for; all digits."""
-    found = springs.document()
+    """Return a [springs] table with the springs and their grid, in all digits, for use in a scene."""
+    document = springs.document()
     grading = as_settings(springs.grading) if springs.grading else {}
-    keys = {"grid": found["grid"], "masses": found["masses"], **grading, **found["springs"]}
-    return dumps({"springs": {**keys, "layer_distance": found["layer_distance"]}})
+    keys = {"grid": document["grid"], "masses": document["masses"], **grading, **document["springs"]}
+    return dumps({"springs": {**keys, "layer_distance": document["layer_distance"]}})

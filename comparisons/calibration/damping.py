@@ -2,10 +2,10 @@
 
     η = 2ζ = tan δ = 1/Q,    ζ = δ/√(4π² + δ²)
 
-with ζ of critical damping, tan δ of a dynamic test, Q of a resonance and δ the logarithmic decrement of a
-decay. Of measured moduli the branches' times lie two a decade over what was measured; their stiffnesses and
-E∞ are nonnegative least squares of the relative misfit (a Prony series). Source: Koruk and Rajagopal 2024,
-Sensors 24, 6137.
+with ζ the fraction of critical damping, tan δ of a dynamic test, Q of a resonance, and δ the logarithmic
+decrement of a decay. Measured moduli are fitted by a Prony series with two branches per decade of the
+measured range; stiffnesses and E∞ are the nonnegative least squares of the relative misfit. Source: Koruk and
+Rajagopal 2024, Sensors 24, 6137.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Material, Relaxation
 from sheetbench.scenes.objects.relaxation import A_DECADE
 
-LEAST_SHARE = 1e-4  # of a branch that is kept
-FEWEST = 4  # rows of measured moduli
+LEAST_SHARE = 1e-4  # branches with smaller shares are dropped
+FEWEST = 4  # least number of rows of measured moduli
 DAMPED = "sheetbench modes lists the damping ratio of each mode"
 RELATION = "loss factor η = 2ζ = tan δ = 1/Q; a decay's logarithmic decrement is πη where η is small"
 
 
 def branches(material: Material) -> list[tuple[float, float]]:
-    """Return share and time [s] of the Maxwell branches of a material, none of one without."""
+    """Return share and time [s] of each Maxwell branch of a material."""
     own = material.branches
     return [*zip(map(float, own.shares), map(float, own.times), strict=True)]
 
@@ -42,16 +42,16 @@ def keys(
     prony: Path | None = None,
     option: str = "--",
 ) -> dict[str, Any]:
-    """Return the keys of [material] that say this; none of nothing. Raises BadInput by the options' names."""
-    where = " and ".join(option + name for name, value in (("at", at), ("band", band)) if value is not None)
+    """Return the keys of [material] for damping options. Raises BadInput naming the options."""
+    limits = " and ".join(option + name for name, value in (("at", at), ("band", band)) if value is not None)
     factor = f"{option}loss-factor"
     if prony is not None:
-        if beside := " and ".join(filter(None, [factor if loss_factor is not None else "", where])):
-            raise BadInput(f"{option}prony and {beside}: measured moduli have their own damping and band")
+        if others := " and ".join(filter(None, [factor if loss_factor is not None else "", limits])):
+            raise BadInput(f"{option}prony and {others}: measured moduli have their own damping and band")
         return _series(prony)
     if loss_factor is None:
-        if where:
-            raise BadInput(f"{where}: needs {factor}")
+        if limits:
+            raise BadInput(f"{limits}: needs {factor}")
         return {}
     if not loss_factor > 0.0:
         raise BadInput(f"{factor} = {loss_factor:g}: must be greater than 0")
@@ -61,21 +61,14 @@ def keys(
 
 
 SERIES = {"frequency": "Hz", "storage": "Pa", "loss": "Pa", "tan_delta": "", "time": "s", "modulus": "Pa"}
-UNDAMPED: dict[str, Any] = {
-    "damping_time": 0.0,
-    "loss_factor": None,
-    "frequency": None,
-    "band": None,
-    "relaxation": (),
-}
 
 
 def tables(material: Material) -> tuple[Table, ...]:
-    """Return the branches of a material, and what they do to it; none of one without."""
-    known = branches(material)
-    if not known:
+    """Return a table of a material's branches and their effect on its modulus, nothing without branches."""
+    rows = branches(material)
+    if not rows:
         return ()
-    ends = material.band or tuple(1.0 / (2.0 * pi * time) for _, time in (known[-1], known[0]))
+    ends = material.band or tuple(1.0 / (2.0 * pi * time) for _, time in (rows[-1], rows[0]))
     storage, _ = material.branches.storage_and_loss(np.array(ends))
     text = (
         f"{RELATION}. Motion stiffens these branches: the modulus is {storage[0]:.3g} times the long-time "
@@ -83,12 +76,11 @@ def tables(material: Material) -> tuple[Table, ...]:
     )
     columns = (NUMBER(".5g", "share"), MILLISECONDS(".5g", "time"))
     caption = "Maxwell branches, as [[material.relaxation]]"
-    return (Table.listed(caption, columns, known, "branches", text=text),)
+    return (Table.listed(caption, columns, rows, "branches", text=text),)
 
 
 def notes(material: Material) -> list[str]:
-    """Return the one damper of a material, and what lists the damping of its modes; nothing of one that does
-    not damp."""
+    """Return notes on the damping of a material, none without damping."""
     if material.branches.times:
         return [DAMPED]
     if not material.dashpot_time:
@@ -101,7 +93,7 @@ def notes(material: Material) -> list[str]:
 
 
 def document(material: Material) -> dict[str, Any]:
-    """Return the key `damping` of the JSON document, if the material damps."""
+    """Return the key `damping` of the JSON document, nothing without damping."""
     if not (material.dashpot_time or material.branches.times):
         return {}
     return {
@@ -114,8 +106,7 @@ def document(material: Material) -> dict[str, Any]:
 
 
 def to_toml(material: Material) -> str:
-    """Return what to paste into a scene beside its [springs]: the branches, or a comment with the one
-    damper."""
+    """Return the branches of a material as TOML for a scene, or a comment with its single damper."""
     text = "".join(
         f"\n[[material.relaxation]]\nshare = {share!r}\ntime = {time!r}\n"
         for share, time in branches(material)
@@ -126,7 +117,7 @@ def to_toml(material: Material) -> str:
 
 
 def _series(path: Path) -> dict[str, Any]:
-    """young and relaxation of a file of frequency, storage, loss (or tan_delta), or of time, modulus."""
+    """Return young and relaxation from a file of frequency, storage, loss or of time, modulus."""
     columns = read_columns(path, SERIES)
     names = set(columns.names)
     if {"frequency", "storage"} <= names and names & {"loss", "tan_delta"}:
@@ -151,31 +142,28 @@ def _series(path: Path) -> dict[str, Any]:
         raise BadInput(f"{path}: moduli must be greater than 0")
     from scipy.optimize import nnls
 
-    found, _ = nnls(rows / measured[:, None], np.ones(len(measured)))
-    if not found[0] > 0.0:
+    stiffness, _ = nnls(rows / measured[:, None], np.ones(len(measured)))
+    if not stiffness[0] > 0.0:
         raise BadInput(
             f"{path}: no long-time modulus is left: the sheet would flow; measure slower or longer"
         )
-    at_once = float(found.sum())
-    kept = [
-        (float(e) / at_once, float(t))
-        for e, t in zip(found[1:], times, strict=True)
-        if e > LEAST_SHARE * at_once
-    ]
-    miss = float(np.sqrt(np.mean((rows @ found / measured - 1.0) ** 2)))
-    if miss > 0.1 or not kept:
+    instant = float(stiffness.sum())
+    shares = [(float(e) / instant, float(t)) for e, t in zip(stiffness[1:], times, strict=True)]
+    branches = [(share, time) for share, time in shares if share > LEAST_SHARE]
+    misfit = float(np.sqrt(np.mean((rows @ stiffness / measured - 1.0) ** 2)))
+    if misfit > 0.1 or not branches:
         raise BadInput(
-            f"{path}: {len(kept)} branches miss the moduli by {100 * miss:.0f} % (root mean square)"
+            f"{path}: {len(branches)} branches miss the moduli by {100 * misfit:.0f} % (root mean square)"
         )
-    left = 1.0 - sum(share for share, _ in kept)
-    return {"young": at_once * left, "relaxation": tuple(Relaxation(*branch) for branch in kept)}
+    long_time = 1.0 - sum(share for share, _ in branches)
+    return {"young": instant * long_time, "relaxation": tuple(Relaxation(*branch) for branch in branches)}
 
 
 def _column(path: Path, columns: Columns, name: str) -> np.ndarray:
     values = columns.numbers(name)
     if len(values) < FEWEST:
         raise BadInput(f"{path}: {len(values)} rows; at least {FEWEST}")
-    for row, (before, after) in zip(columns.rows[1:], pairwise(values), strict=True):
-        if not 0.0 < before < after:
+    for row, (previous, value) in zip(columns.rows[1:], pairwise(values), strict=True):
+        if not 0.0 < previous < value:
             raise row.refused(name, "must be greater than 0 and increase")
     return values

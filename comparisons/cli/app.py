@@ -1,7 +1,7 @@
 """The `sheetbench` command: its verbs and its exit statuses.
 
-A verb is a module of this package named like the verb, with a function `command`. Importing it must stay
-quick, so a verb imports what it works with inside that function.
+A verb is a module of this package named like the verb, with a function `command`. Slow imports belong inside
+that function, to keep `--help` fast.
 
 Exit status: 0 done; 1 a fault of the program, with its traceback; 2 bad input, in one line; 3 a solver
 did not converge; 130 interrupted; 141 the output was closed, as by `head`.
@@ -34,17 +34,17 @@ from sheetbench.choices import VERBS
 
 FAULT = 1
 BAD_INPUT = 2
-PIPE_CLOSED = 141  # 128 + SIGPIPE, as of a program that the signal ends
+PIPE_CLOSED = 141  # 128 + SIGPIPE, the status of a program ended by the signal
 UsageError: Any = typer.BadParameter.__base__  # click's, or typer's own copy of it
 SIZE = re.compile("0*[1-9][0-9]{0,3}")  # of a terminal, in columns or lines
-SHOWN = 40  # characters of a name that is too long
+SHOWN = 40  # characters quoted of an overlong name
 OUTPUT_FAULTS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
-BOXES = 80  # columns; in narrower ones the boxes of a help page cut names off, and it is plain text
+BOXES = 80  # columns: below, the boxes of a help page would cut names off, so it is plain text
 
 
 @cache
 def verb_group(verbs: Sequence[str] = VERBS, boxes: bool = True) -> Any:
-    """Return the command with these verbs; boxes: whether help pages have boxes."""
+    """Return the command with some verbs; boxes: whether help pages have boxes."""
     app = typer.Typer(
         help="How good is your spring lattice? Lumped-mass models of soft sheets beside finite elements.",
         epilog="SCENE is a name that 'sheetbench check' lists, or a path to a TOML file.",
@@ -80,7 +80,7 @@ def _print_version() -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit status."""
-    last = arguments is None  # the process is the command's own
+    last = arguments is None  # the process ends with the command
     arguments = sys.argv[1:] if arguments is None else arguments
     if arguments[:1] == ["help"]:
         arguments = [*arguments[1:], "--help"]
@@ -97,49 +97,48 @@ def main(arguments: list[str] | None = None) -> None:
     if arguments in (["--version"], ["-V"]):  # typer would import pydantic to read the flag
         _print_version()
         raise SystemExit(0)
-    called = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one is read sooner
-    command = verb_group(called, boxes=get_terminal_size().columns >= BOXES)
+    verbs = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one loads faster
+    command = verb_group(verbs, boxes=get_terminal_size().columns >= BOXES)
     with interruption.heeded(last), messages.in_lines():
         try:
             try:
                 status = command(args=arguments, prog_name="sheetbench", standalone_mode=False)
                 raise SystemExit(status or 0)
             finally:
-                if sys.stdout is not None:  # an error of writing appears here, and not as the process ends
+                if sys.stdout is not None:  # writing errors are raised here, not at the end of the process
                     sys.stdout.flush()
-        except SystemExit as leaving:
-            if leaving.code == interruption.STATUS:
-                interruption.say()
-            if isinstance(leaving.__context__, BrokenPipeError):  # for which typer leaves with 1
+        except SystemExit as end:
+            if end.code == interruption.STATUS:
+                interruption.report()
+            if isinstance(end.__context__, BrokenPipeError):  # typer's status would be 1
                 _drop_output()
                 raise SystemExit(PIPE_CLOSED) from None
             raise
         except Exception as error:
             if isinstance(error, typer.Abort) or interrupts.is_behind(error):
-                interruption.say()
+                interruption.report()
                 raise SystemExit(interruption.STATUS) from None
             raise SystemExit(_report_error(error)) from None
 
 
 def _plain(error: UnicodeError) -> tuple[str, int]:
-    """Return what is printed of characters that the output's encoding lacks: minus signs and rules as -, else
-    ?."""
+    """Return substitutes of characters missing in the output's encoding: - for minus and rules, else ?."""
     assert isinstance(error, UnicodeEncodeError)
-    lacking = error.object[error.start : error.end]
-    return "".join("-" if one in "−─" else "?" for one in lacking), error.end
+    missing = error.object[error.start : error.end]
+    return "".join("-" if character in "−─" else "?" for character in missing), error.end
 
 
 codecs.register_error(PLAIN := "plain", _plain)
 
 
 def _drop_output() -> None:
-    """Write what is left of the output to nowhere."""
+    """Redirect the remaining output to the null device."""
     with suppress(OSError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 def _clean_environment(environment: MutableMapping[str, str]) -> None:
-    """Drop impossible sizes of a terminal, and draw without a window whatever matplotlib is set to."""
+    """Drop impossible sizes of a terminal, and set matplotlib's backend to one without windows."""
     for name in ("COLUMNS", "LINES"):
         if not SIZE.fullmatch(environment.get(name, "")):
             environment.pop(name, None)
@@ -147,7 +146,7 @@ def _clean_environment(environment: MutableMapping[str, str]) -> None:
 
 
 def _system_message(error: OSError) -> str | None:
-    """Return the message for a name that is too long or an output that cannot be written, else None."""
+    """Return the message for an overlong file name or an output that cannot be written, else None."""
     if error.errno == errno.ENAMETOOLONG:
         return f"{str(error.filename)[:SHOWN]}…: a name that is too long; choose a shorter one"
     if error.filename is None and error.errno in OUTPUT_FAULTS:
@@ -156,7 +155,7 @@ def _system_message(error: OSError) -> str | None:
 
 
 def _report_error(error: Exception) -> int:
-    """Print what the user did wrong, or that the program did; return the exit status."""
+    """Print the message of an error, of the user or of the program; return the exit status."""
     if isinstance(error, BrokenPipeError):
         _drop_output()
         return PIPE_CLOSED
@@ -167,18 +166,18 @@ def _report_error(error: Exception) -> int:
     from sheetbench.answers.escape import terminal
 
     if isinstance(error, UsageError):
-        of = error.ctx.command_path if error.ctx else "sheetbench"
+        path = error.ctx.command_path if error.ctx else "sheetbench"
         message = terminal(" ".join(error.format_message().split()).rstrip("."))
-        print(f"sheetbench: {message}; see {of} --help", file=sys.stderr)
+        print(f"sheetbench: {message}; see {path} --help", file=sys.stderr)
         return BAD_INPUT
-    from sheetbench.errors import BadInput, NoEquilibrium  # with numpy and pydantic: help must not wait
+    from sheetbench.errors import BadInput, NoEquilibrium  # imports numpy and pydantic, slow for help
 
     if isinstance(error, (BadInput, NoEquilibrium)):
         print(f"sheetbench: {terminal(' '.join(str(error).split()))}", file=sys.stderr)
         return BAD_INPUT if isinstance(error, BadInput) else NOT_CONVERGED
     if isinstance(error, MemoryError):
-        said = f"not enough memory: {terminal(str(error))}; take fewer masses or elements"
-        print(f"sheetbench: {said}", file=sys.stderr)
+        message = f"not enough memory: {terminal(str(error))}; take fewer masses or elements"
+        print(f"sheetbench: {message}", file=sys.stderr)
         return BAD_INPUT
     traceback.print_exception(error)
     print(

@@ -1,4 +1,4 @@
-"""Arguments of a command: items of lists, and values in Python as the command takes them."""
+"""Conversion of a command's arguments: items of lists, and values of calls in Python."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from typing import Annotated, Any, get_args, get_origin
 from comparisons.cli.options import Kind
 
 SIZE = "int | Sequence[int] | str"
-IN_PYTHON = {  # what else than a text is taken, by the parameter's name or what its value is called
+IN_PYTHON = {  # types accepted in Python, by the parameter's name or metavar
     "measured": "Displacements | str | Path",
     **dict.fromkeys(("SCENE", "SCENES"), "Scene | str | Path"),
     **dict.fromkeys(("GRID", "GRIDS", "N", "N,N,N", "ELEMENTS"), SIZE),
@@ -27,13 +27,13 @@ OURS = ("sheetbench", "comparisons", "lumped", "fem_reference")  # packages
 
 
 def kind_of(parameter: Parameter) -> Kind:
-    """Return what an option takes beyond its type."""
-    more = getattr(parameter.annotation, "__metadata__", ())
-    return next((one for one in more if isinstance(one, Kind)), Kind())
+    """Return the Kind of a parameter."""
+    metadata = getattr(parameter.annotation, "__metadata__", ())
+    return next((entry for entry in metadata if isinstance(entry, Kind)), Kind())
 
 
 def plain(parameter: Parameter) -> Parameter:
-    """Return a parameter without its Kind and what typer reads of it."""
+    """Return a parameter without its Kind and its typer settings."""
     annotation = parameter.annotation
     if get_origin(annotation) is Annotated:
         annotation = get_args(annotation)[0]
@@ -41,29 +41,28 @@ def plain(parameter: Parameter) -> Parameter:
 
 
 def in_python(parameter: Parameter, metavar: str | None) -> Parameter:
-    """Return a parameter with the types that it takes in Python; metavar: what its value is called."""
-    own = plain(parameter).annotation
-    if isinstance(own, str):
+    """Return a parameter with the types that it accepts in Python; metavar: name of its value."""
+    annotation = plain(parameter).annotation
+    if isinstance(annotation, str):
         return parameter
-    text, called = str(own), (metavar or "").strip("[]")
-    taken = next((kind for kind in ("int", "bool", "float") if kind in text), "str")
+    text, metavar = str(annotation), (metavar or "").strip("[]")
+    accepted = next((kind for kind in ("int", "bool", "float") if kind in text), "str")
     if "tuple" in text:
-        taken = "tuple[float, float]"
-    elif taken == "float":
-        taken = "float | str"
-    elif taken == "str":
-        taken = IN_PYTHON.get(parameter.name) or IN_PYTHON.get(
-            called, "str | Path" if "Path" in text else "str"
+        accepted = "tuple[float, float]"
+    elif accepted == "float":
+        accepted = "float | str"
+    elif accepted == "str":
+        accepted = IN_PYTHON.get(parameter.name) or IN_PYTHON.get(
+            metavar, "str | Path" if "Path" in text else "str"
         )
     if "list[" in text:
-        mapped = "Mapping[str, Any] | " if "=" in called or called == "FILES" else ""
-        taken = f"{mapped}Sequence[{taken}] | {taken}"
-    return parameter.replace(annotation=f"{taken} | None" if "None" in text else taken)
+        mapping = "Mapping[str, Any] | " if "=" in metavar or metavar == "FILES" else ""
+        accepted = f"{mapping}Sequence[{accepted}] | {accepted}"
+    return parameter.replace(annotation=f"{accepted} | None" if "None" in text else accepted)
 
 
 def conversion(parameter: Parameter, separator: str | None = None) -> Callable[[Any], Any]:
-    """Return the conversion of an argument in Python to what the terminal makes of an option's text;
-    separator: of a list's items."""
+    """Return a function that converts an argument in Python to a parsed option; separator: of lists."""
     kind = str(plain(parameter).annotation)
     unit = kind_of(parameter).unit
 
@@ -84,35 +83,38 @@ def conversion(parameter: Parameter, separator: str | None = None) -> Callable[[
 
 
 def items_of(name: str, value: Any, separator: str | None) -> list[Any]:
-    """Return the items of a list: of one that is given alone, of a mapping as key=value or key=a,b; texts in
-    parts at the separator, numbers as 9 or 9x5, paths as text, objects of ours as they are."""
-    value = [f"{key}={_listed(one)}" for key, one in value.items()] if isinstance(value, Mapping) else value
-    found: list[Any] = []
-    for one in value if isinstance(value, list | tuple) else [value]:
-        one = _single(name, one)
-        if isinstance(one, str) and separator is not None:
-            found += filter(None, map(str.strip, re.split(separator, one)))
-        elif isinstance(one, str) or type(one).__module__.startswith(OURS):
-            found.append(one)
+    """Return the items of a list argument; a single value counts as a list.
+
+    Texts are split at the separator; a mapping becomes texts key=value or key=a,b; numbers become texts as 9
+    or 9x5, paths texts; objects of our packages stay unchanged.
+    """
+    value = [f"{key}={_listed(v)}" for key, v in value.items()] if isinstance(value, Mapping) else value
+    items: list[Any] = []
+    for item in value if isinstance(value, list | tuple) else [value]:
+        item = _single(name, item)
+        if isinstance(item, str) and separator is not None:
+            items += filter(None, map(str.strip, re.split(separator, item)))
+        elif isinstance(item, str) or type(item).__module__.startswith(OURS):
+            items.append(item)
         else:
-            found.append("x".join(map(str, one)) if isinstance(one, list | tuple) else str(one))
-    return found
+            items.append("x".join(map(str, item)) if isinstance(item, list | tuple) else str(item))
+    return items
 
 
 def _listed(values: Any) -> str:
-    """Return a mapping's value as text: of a list or an array its items with commas between."""
-    each = getattr(values, "tolist", lambda: values)()
-    each = each if isinstance(each, list | tuple) else [each]
-    return ",".join(one if isinstance(one, str) else json.dumps(one, default=str) for one in each)
+    """Return a mapping's value as text, items of lists and arrays separated by commas."""
+    items = getattr(values, "tolist", lambda: values)()
+    items = items if isinstance(items, list | tuple) else [items]
+    return ",".join(item if isinstance(item, str) else json.dumps(item, default=str) for item in items)
 
 
 def _single(name: str, value: Any, numbers: bool = True) -> Any:
-    """Return a text, a path, an object of ours, or where they may be one or several numbers. Raises BadInput
-    for any other."""
+    """Return a value that is a text, a path, an object of our packages, or with `numbers` one or several
+    numbers. Raises BadInput for other types."""
     if isinstance(value, str | PathLike) or type(value).__module__.startswith(OURS):
         return value
-    each = value if value and isinstance(value, list | tuple) else [value]
-    if numbers and all(isinstance(one, Number) for one in each):
+    items = value if value and isinstance(value, list | tuple) else [value]
+    if numbers and all(isinstance(item, Number) for item in items):
         return value
     from sheetbench.errors import BadInput
 

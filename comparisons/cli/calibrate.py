@@ -69,23 +69,23 @@ def command(
             its own sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a
             program that reads it; c: one C file that steps it, with a check;
             fmu: that as an FMI 3.0 unit.
-        precision (NAME): With --for c or fmu: double or single numbers. Default: double.
-        from_ (CODE): The sheet that another code's numbers are, given in place of the SCENE as
-            tri_ke=1e3,tri_ka=1e3,edge_ke=10; --cell its mesh, --spacing the distance of its vertices.
+        precision (NAME): Precision of the numbers (with --for c or fmu): double or single. Default: double.
+        from_ (CODE): Find the sheet that belongs to another code's numbers, given in place of the SCENE as
+            tri_ke=1e3,tri_ka=1e3,edge_ke=10; --cell: its mesh; --spacing: the distance of its vertices.
         cell (CELL): Stiffness of a repeated cell as a sheet, its best coefficients, the error that no finer
             mesh removes: one-diagonal, alternate-diagonals, equilateral, unstructured (triangles with
             hinges), bricks, or a TOML file with periods, nodes and elements.
-        spacing (LENGTH): With --cell or --from: distance of nodes, in m or as 5mm. Default with --cell: an
+        spacing (LENGTH): Distance of nodes (with --cell or --from), in m or as 5mm. Default with --cell: an
             eighth of the shorter side.
-        hinge (WEIGHT): With --cell: energy of a hinge, ½ k w θ²: length, w the edge's; angle, w = 1; height,
-            w = 3 length² over the area of both triangles. Default: length.
-        coefficient (NAME=VALUE): With --cell: use this in place of the one found.
+        hinge (WEIGHT): Weight w in the energy of a hinge, ½ k w θ² (with --cell): length: the edge's length;
+            angle: 1; height: 3 length² over the area of both triangles. Default: length.
+        coefficient (NAME=VALUE): A value to use in place of the computed coefficient (with --cell).
         loss_factor (ETA): Damping of the material, η = 2ζ = tan δ = 1/Q, with --at or --band; of a decay
             2Λ/√(4π² + Λ²), Λ = ln(peak/next peak).
         at (HZ): One damper per spring: the loss factor is right at this frequency only.
-        band (LOW HIGH): Two Maxwell branches a decade, which keep the loss factor from LOW to HIGH Hz.
+        band (LOW HIGH): Two Maxwell branches per decade, for a constant loss factor from LOW to HIGH Hz.
         prony (FILE): Young's modulus and branches from a CSV of frequency [Hz], storage, loss (or tan_delta),
-            or of time [s], modulus; moduli in Pa or as the header has it, storage [MPa].
+            or of time [s], modulus; moduli in Pa or the unit in the header, as storage [MPa].
     """
     from dataclasses import fields
 
@@ -99,55 +99,59 @@ def command(
     from comparisons.codes.table import CODES
     from comparisons.models.sizes import require_room
     from lumped import Calibration
+    from sheetbench.answers.report import Write
     from sheetbench.errors import BadInput, require_choice, require_effect
 
     require_effect("without --cell or --from", {"--spacing": (cell or from_) is None and spacing})
     if from_ is not None:
-        given = given_coefficients((scene or "").split(",") if scene else ())
-        with output.open(about={"from": from_, "given": given}, variant={"--from": from_}) as out:
+        numbers = given_coefficients((scene or "").split(",") if scene else ())
+        with output.open(about={"from": from_, "given": numbers}, variant={"--from": from_}) as out:
             density = sheet.values["density"]
-            return out.show(sheet_of(from_, given, cell=cell, spacing=spacing, density=density))
+            return out.show(sheet_of(from_, numbers, cell=cell, spacing=spacing, density=density))
     if toml and output.json:
         raise BadInput("--toml and --json: choose one")
     damped = damping.keys(loss_factor, at, band, prony)
     if sheet.young is not None and "young" in damped:
         raise BadInput("--young and --prony: the measured moduli give the long-time one; leave --young out")
     if cell is not None and scene is None:
-        raise BadInput("--cell: needs a SCENE, in which its error is found")
-    wanted, named = lattice.spec, scene is not None
-    of = subject(scene, sheet.values | damped, "--")
-    about = {"sheet": of.sheet.model_dump(mode="json"), "material": of.material.model_dump(mode="json")}
+        raise BadInput("--cell: needs a SCENE, for its error there")
+    spec, has_scene = lattice.spec, scene is not None
+    loaded = subject(scene, sheet.values | damped, "--")
+    material = loaded.material
+    about = {"sheet": loaded.sheet.model_dump(mode="json"), "material": material.model_dump(mode="json")}
     if cell is not None:
         shape = cell if isinstance(cell, str) else cell.name
         variant = {"--cell": shape, "--spacing": spacing, "--hinge": hinge}
-        with output.open(scene=of, variant=variant) as out:
-            known = given_coefficients(coefficient or ())
-            return out.show(homogenise(of, cell, spacing=spacing, hinge=hinge, coefficients=known))
+        with output.open(scene=loaded, variant=variant) as out:
+            numbers = given_coefficients(coefficient or ())
+            return out.show(homogenise(loaded, cell, spacing=spacing, hinge=hinge, coefficients=numbers))
     if for_ is not None:
         require_choice("--for", for_, tuple(dict.fromkeys([*WRITERS, *exchange.CODES])))
     if for_ not in exchange.IN_MOTION:
         require_effect(f"without --for {' or '.join(exchange.IN_MOTION)}", {"--precision": precision})
     if for_ is not None and for_ in WRITERS:
-        of_springs = wanted.but(grid=None).settings
-        options = {f"--{name.replace('_', '-')}": value for name, value in of_springs.items()}
+        settings = spec.but(grid=None).settings
+        options = {f"--{name.replace('_', '-')}": value for name, value in settings.items()}
         require_effect(f"with --for {for_}", options)
-        if why := undamped(CODES[for_], of.material):
-            require_effect(f"with --for {for_}: {why}", {"--loss-factor": loss_factor, "--prony": prony})
-        found = setup(of, for_, squares_of(wanted.grid), named=named)
+        if reason := undamped(CODES[for_], material):
+            require_effect(f"with --for {for_}: {reason}", {"--loss-factor": loss_factor, "--prony": prony})
+        code_setup = setup(loaded, for_, squares_of(spec.grid), named=has_scene)
         with output.open(about=about, variant={"--for": for_}) as out:
-            return out.show(found)
+            return out.show(code_setup)
     with output.open(about=about, variant={"--for": for_} if for_ else None) as out:
         if (export is not None or for_ is not None) and not large:
-            require_room(of, wanted, "--grid")
-        if for_ == "sofa" and wanted.calibration is None:  # it has springs between two points alone
-            wanted = wanted.but(calibration="central")
-        springs = calibrate(of, wanted, named)
-        foretold = named and wanted.k is None and wanted.layer_distance is None
-        off = expected(of, springs) if foretold else None
+            require_room(loaded, spec, "--grid")
+        if for_ == "sofa" and spec.calibration is None:  # it has springs between two points alone
+            spec = spec.but(calibration="central")
+        springs = calibrate(loaded, spec, has_scene)
+        with_estimate = has_scene and spec.k is None and spec.layer_distance is None
+        estimate = expected(loaded, springs) if with_estimate else None
         if export is not None:
             line = command_line(output.verb, output.terminal)
-            out.notes.append(exchange.export(export, of, springs, line, output.overwrite))
-        own = {one.name: getattr(springs, one.name) for one in fields(Calibration)}
-        files = ({}, []) if for_ is None else exchange.lattice_files(of, springs, for_, precision or "double")
-        answer = SheetCalibration(**own, found=springs, scene=of, expected=off, lattice=files)
-        return out.show(answer, instead=to_toml(springs) + damping.to_toml(of.material) if toml else None)
+            out.notes.append(exchange.export(export, loaded, springs, line, output.overwrite))
+        values = {entry.name: getattr(springs, entry.name) for entry in fields(Calibration)}
+        files: tuple[dict[str, Write], list[str]] = ({}, [])
+        if for_ is not None:
+            files = exchange.lattice_files(loaded, springs, for_, precision or "double")
+        answer = SheetCalibration(**values, found=springs, scene=loaded, expected=estimate, lattice=files)
+        return out.show(answer, instead=to_toml(springs) + damping.to_toml(material) if toml else None)

@@ -19,10 +19,9 @@ def command(
     schema: bool = False,
     output: PictureOptions,
 ) -> Check | Catalogue | Schema:
-    """Say what will be solved and warn of slips; list the catalogue.
+    """Describe a scene and warn about likely mistakes; list the catalogue.
 
-    Without a SCENE the catalogue is listed. --out draws the scene and copies those of the catalogue, to start
-    from.
+    Without a SCENE the catalogue is listed. --out draws the scene, and copies catalogue scenes to start from.
 
     Args:
         scene ([SCENE], argument): Catalogue name or path; without it, the catalogue is listed.
@@ -43,7 +42,7 @@ def command(
         with output.open() as out:
             return out.show(Catalogue())
     with catch_warnings():
-        simplefilter("ignore")  # the report has them
+        simplefilter("ignore")  # the report lists these warnings
         loaded = scene_of(scene)
     with output.open(scene=loaded) as out:
         return out.show(check(loaded, called=scene if isinstance(scene, str) else None))

@@ -18,7 +18,11 @@ if TYPE_CHECKING:
 FRAMES = 100  # of a motion
 
 
-@no_effect(with_duration="branch", without_duration="every animate")
+@no_effect(
+    with_duration="branch settle sensitivity",
+    with_settle="branch uncertainty",
+    without_duration="every animate",
+)
 def command(
     scene: str,
     lattice: LatticeOptions,
@@ -29,6 +33,8 @@ def command(
     model: Models = None,
     uncertainty: bool | None = None,
     branch: str | None = None,
+    settle: bool = False,
+    sensitivity: list[str] | None = None,
     duration: Seconds = None,
     every: Seconds = None,
     animate: bool = False,
@@ -37,21 +43,25 @@ def command(
 ) -> Annotated[Comparison | MotionComparison, "duration: MotionComparison"]:
     """Solve a scene with the lattice and a reference, side by side.
 
-    What differs is shown with the reference's error bar, and what it cost. Where no calibration is named,
-    uniform springs are shown alongside. With --duration and --out, runs are written to the folder as they go,
-    and the same command resumes them.
+    Differences are shown with the reference's error bar, and the cost of each model. Uniform springs are
+    added unless a calibration is named. Runs with --duration and --out are saved continuously; run the
+    command again to resume them.
 
     Args:
         reference (MODEL): {REFERENCES}.
         elements (N): The reference's elements along the shorter side, or 8x4 along x and y; default:
             {ELEMENTS}; 8 with --duration.
-        uncertainty: Solve the reference on coarser meshes too, for its error bar. Default: of plates and
-            shells.
+        uncertainty: Solve the reference on coarser meshes too, for its error bar. Default: on for plate and
+            shell.
         branch (NAME): {BRANCHES}: buckled leaves an unstable equilibrium along its buckling mode. Default:
             path.
+        settle: Start both models from the end of a strongly damped motion: for thin sheets, which fold before
+            statics reach the full load.
+        sensitivity (NAMES): Parameters of the scene (young, thickness, load1.force.z): a column each, the
+            change of every probe's displacement by 1 % more of it.
         duration (S): Compare the motion over this time, from rest.
-        every (S): With --duration: time between samples. Default: 1/100 of the lowest period.
-        animate: With --duration and --out: draw both sheets moving, side by side.
+        every (S): Time between samples (with --duration). Default: 1/100 of the lowest period.
+        animate: Draw an animation of both sheets side by side (with --duration and --out).
     """
     from comparisons.comparison.comparison import compare, load_static
     from comparisons.models.context import running
@@ -59,19 +69,19 @@ def command(
     from comparisons.pictures.array_files import write_mesh
     from sheetbench import scenes
 
-    named = reference if isinstance(reference, str) else reference.label
-    models = {"--reference": named, **({"--model": " ".join(map(str, model))} if model else {})}
+    name_of_reference = reference if isinstance(reference, str) else reference.label
+    models = {"--reference": name_of_reference, **({"--model": " ".join(map(str, model))} if model else {})}
     size = None if elements is None else parse_elements(elements)
     shared: dict[str, Any] = {"reference": reference, "elements": size, "law": law, "models": model or ()}
     if duration is not None:
         from comparisons.comparison.motion import compare_motion
 
-        moving = scenes.scene_of(scene)
-        with output.open(scene=moving, variant={"--duration": duration, "--every": every, **models}) as out:
-            for name in ("lumped", named) if output.out is not None else ():
+        loaded = scenes.scene_of(scene)
+        with output.open(scene=loaded, variant={"--duration": duration, "--every": every, **models}) as out:
+            for name in ("lumped", name_of_reference) if output.out is not None else ():
                 out.reserve(f"{name}/")
-            both = compare_motion(
-                moving,
+            motions = compare_motion(
+                loaded,
                 duration,
                 lattice.spec,
                 uncertainty=uncertainty is not False,
@@ -80,7 +90,7 @@ def command(
                 store=out.reserve("runs/"),
                 **shared,
             )
-            return out.show(replace(both, animate=animate))
+            return out.show(replace(motions, animate=animate))
     loaded = load_static(scene)
     spec = lattice.spec.but(branch=branch or "path")
     models |= {"--calibration": "open" if spec.calibration is None and spec.k is None else "named"}
@@ -90,5 +100,5 @@ def command(
             out.keep(f"{solution.model}.vtu", lambda path: write_mesh(path, solution.mesh))
 
         with running(solved=keep):
-            comparison = compare(loaded, spec, uncertainty=uncertainty, **shared)
-        return out.show(comparison)
+            comparison = compare(loaded, spec, uncertainty=uncertainty, settle=settle, **shared)
+        return out.show(replace(comparison, sensitive_to=tuple(sensitivity or ())))

@@ -20,13 +20,13 @@ out = Console(highlight=False)
 err = Console(stderr=True, highlight=False)
 _quiet = False
 verbose = False  # all notes
-QUIET, BETWEEN = 2.0, 10.0  # s without a line of progress where there is no terminal: at first, and later
+QUIET, BETWEEN = 2.0, 10.0  # s before the first line of progress without a terminal, and between lines
 REFRESHED = 0.3  # s between changes of the line of progress in a notebook
 
 
 @contextmanager
 def speaking(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
-    """Hold back progress and notes on standard error, or show all notes of an answer, within a block."""
+    """Suppress progress and notes on standard error, or show all notes of an answer, for a block."""
     global _quiet, verbose
     _quiet, verbose = quiet, all_notes
     try:
@@ -37,26 +37,28 @@ def speaking(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
 
 @contextmanager
 def progress() -> Iterator[Callable[[object], None]]:
-    """Yield a function that shows what is being done, a `Work`, a campaign's progress or a text: a spinner on
-    a terminal, in a notebook a line that changes, else a line now and then, and at once of what says that it
-    is to be told at once."""
+    """Yield a function that shows progress: a `Work`, a campaign's progress or a text.
+
+    It is shown by a spinner on a terminal, by one changing line in a notebook, and otherwise by occasional
+    lines; progress with `at_once` is printed immediately.
+    """
     if _quiet:
         yield lambda what: None
         return
     if err.is_jupyter:
-        with _in_notebook() as show_there:
-            yield show_there
+        with _in_notebook() as show_in_notebook:
+            yield show_in_notebook
         return
     if not err.is_terminal:
         due = monotonic() + QUIET
 
-        def say(what: object) -> None:
+        def print_line(work: object) -> None:
             nonlocal due
-            if getattr(what, "at_once", False) or monotonic() >= due:
-                tell(str(what))
+            if getattr(work, "at_once", False) or monotonic() >= due:
+                tell(str(work))
                 due = monotonic() + BETWEEN
 
-        yield say
+        yield print_line
         return
     with err.status("", spinner="line") as spinner:
         yield lambda what: spinner.update(Text(terminal(str(what))))
@@ -64,7 +66,7 @@ def progress() -> Iterator[Callable[[object], None]]:
 
 @contextmanager
 def _in_notebook() -> Iterator[Callable[[object], None]]:
-    """Yield a function that shows a text in one place of a notebook's cell, which is empty at the end."""
+    """Yield a function that shows a text in one line of a notebook's cell, cleared at the end."""
     from IPython.display import display
 
     handle, due = None, monotonic() + REFRESHED
@@ -108,8 +110,7 @@ def heading(title: str, subtitle: str = "") -> None:
 
 
 def show(table: Table) -> None:
-    """Print an empty line and a table, folded to the terminal's width; of any width where the output is no
-    terminal."""
+    """Print an empty line and a table, folded to a terminal's width, unfolded without a terminal."""
     from sheetbench.answers.layout import blocks
 
     blank()
@@ -125,7 +126,7 @@ def show(table: Table) -> None:
 
 
 def asks() -> bool:
-    """Return whether somebody at a terminal can be asked."""
+    """Return whether input and output are a terminal, for questions to the user."""
     return out.is_terminal and sys.stdin is not None and sys.stdin.isatty()
 
 
@@ -143,7 +144,7 @@ def note(text: str) -> None:
 
 
 def _fitted(line: str, console: Console = out, indent: str = "") -> list[str]:
-    """Return the line broken between words, further lines behind an indent; a long path stays whole."""
+    """Return a line broken between words, with an indent on further lines; long paths stay whole."""
     from textwrap import TextWrapper
 
     wrapper = TextWrapper(

@@ -30,7 +30,7 @@ def command(
 ) -> Crosscheck:
     """Compare models and external codes, each with its convergence.
 
-    An empty list leaves a model, or all external codes, out: --solid "". An interrupted run is resumed.
+    An empty list leaves out a model, or all external codes: --solid "". Run the command again to resume.
 
     Args:
         scenes (SCENES, argument): Catalogue names or paths to TOML files; all: the catalogue.
@@ -41,7 +41,7 @@ def command(
             {SIZES[shell]}.
         solid (N,N,N): Elements of the nonlinear solid along the shorter side, in rising order. Default:
             {SIZES[solid]}.
-        judges (NAMES): External codes, or FILE.py:OBJECT; default: all that are installed.
+        judges (NAMES): External codes, or FILE.py:OBJECT; default: all installed codes.
         meshes (N,N,N): Elements of external codes. Default: each code's own.
     """
     from comparisons.comparison.crosscheck import candidates, crosscheck, load_scenes
@@ -50,12 +50,12 @@ def command(
 
     codes = find_codes(judges)
     given = dict(zip(SIZES, (grid, plate, shell, solid), strict=True))
-    sizes = {name: SIZES[name].split(",") if of is None else of for name, of in given.items()}
+    sizes = {name: SIZES[name].split(",") if n is None else n for name, n in given.items()}
     if not codes:
         require_effect("without external codes", {"--meshes": meshes})
     models = candidates(sizes.pop("lumped"), lattice.spec.but(calibration=calibration), sizes, codes, meshes)
-    chosen = load_scenes(scenes)
-    with output.open(about={"scenes": [scene.document() for scene in chosen]}) as out:
-        with out.campaign(campaign) as run:
-            checked = crosscheck(chosen, **run, models=models, codes=codes)
-        return out.show(checked)
+    loaded = load_scenes(scenes)
+    with output.open(about={"scenes": [scene.document() for scene in loaded]}) as out:
+        with out.campaign(campaign) as keywords:
+            answer = crosscheck(loaded, **keywords, models=models, codes=codes)
+        return out.show(answer)

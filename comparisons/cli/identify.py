@@ -11,6 +11,7 @@ from comparisons.cli.verb import no_effect
 
 if TYPE_CHECKING:
     from comparisons.identification.answer import Identification
+    from comparisons.identification.field import FieldIdentification
     from comparisons.identification.tensile.tensile import TensileFit
 
 OF_SCENE = "scene measured uncertainty unknown model elements law offset refine lattice grid calibration k"
@@ -35,13 +36,13 @@ def command(
     refine: bool = True,
     large: bool = False,
     output: PictureOptions,
-) -> Annotated[Identification | TensileFit, "tensile: TensileFit"]:
+) -> Annotated[Identification | FieldIdentification | TensileFit, "tensile: TensileFit"]:
     """Fit material or support values to measurements of a sheet.
 
-    With 95 % intervals. The search starts at the scene's values; at others too if that fit is poor. Without
-    --lumped the lattice is refined until the error of its grid is below the noise. Lengths are in metres
-    unless a column's header says otherwise (uz [mm]), in the scene's axes. --tensile fits a rubber's law
-    and its constants instead.
+    Values have 95 % intervals. The search starts at the scene's values, and at others if that fit is poor.
+    Without --lumped the lattice is refined until the error of its grid is below the noise. Lengths are in
+    metres or the unit in a column's header (uz [mm]), in the scene's axes. --tensile fits a rubber's law and
+    its constants instead.
 
     Args:
         scene ([SCENE], argument): Catalogue name or path; not needed for --tensile.
@@ -50,21 +51,21 @@ def command(
         unknown (NAMES): young (or E), poisson (nu), density (rho), thickness (h), young_1 and the other
             constants of fibres, patch1.young (or its poisson, density, thickness, angle), curvature_EDGE,
             tilt_EDGE (of a clamp), damping_time, damping_rate, loss_factor, share_N and time_N of a branch,
-            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z. Default:
-            young.
+            drag (of the air), natural.kxx (or patch1.natural.exx and so on), mass1, obstacle1.z; or one of
+            young=field, thickness=field, density=field, of every cell of the lattice. Default: young.
         tensile (FILES): A tensile test instead: CSV with stretch, strain or displacement, and
             engineering_stress, true_stress or force, each with its unit (force [N]); pure-shear=FILE or
-            equibiaxial=FILE of other tests.
-        up_to (STRETCH): With --tensile: ignore data beyond this stretch.
-        area (M2): With --tensile and a force: undeformed cross-section, 1.8e-5 or 18mm².
-        gauge (M): With --tensile and a displacement: undeformed length, 33mm.
+            equibiaxial=FILE for other tests.
+        up_to (STRETCH): Largest stretch of data to use (with --tensile).
+        area (M2): Undeformed cross-section, 1.8e-5 or 18mm² (with --tensile and a force).
+        gauge (M): Undeformed length, 33mm (with --tensile and a displacement).
         model (MODEL): lumped, shell or solid. Default: lumped.
         elements (N): The shell's or solid's elements along the shorter side, or 8x4 along x and y; default:
             {ELEMENTS}.
         offset (M): Distance of a point cloud from the mid-surface: half the thickness for the sheet's top.
-        uncertainty (M): Standard deviation of every measured number, 0.001 or 1mm; a column sd [mm] has that
-            of each row. Default: that of the residuals.
-        refine: Look at other cells or elements too, for their error.
+        uncertainty (M): Standard deviation of every measured number, 0.001 or 1mm; a column sd [mm] gives it
+            row by row. Default: standard deviation of the residuals.
+        refine: Solve with other cells or elements too, for their error.
     """
     from sheetbench.errors import BadInput
 

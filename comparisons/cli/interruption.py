@@ -1,8 +1,8 @@
-"""Ctrl-C: a command ends within two seconds, with status 130 and a line that says what it leaves behind.
+"""Handling of Ctrl-C: a command ends within two seconds, with status 130 and a line on the files it leaves.
 
-Python heeds an interrupt between two of its own instructions, and a factorisation may last longer than that.
-So a thread that the signal wakes ends the process where it has not ended by then. Worker processes do not
-hear the interrupt: the process that started them ends them (`comparisons.sweep.executors`).
+Python handles an interrupt between its own instructions, and a factorisation may delay this for long.
+Therefore the signal wakes a thread, which ends the process if necessary. Worker processes ignore the
+interrupt; their parent process ends them (`comparisons.sweep.executors`).
 """
 
 from __future__ import annotations
@@ -15,16 +15,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-STATUS = 130  # 128 + SIGINT, as shells have it
-PATIENCE = 1.2  # s, from the signal to the end of a process that does not heed it
+STATUS = 130  # 128 + SIGINT, as in shells
+PATIENCE = 1.2  # s from the signal to the forced end of the process
 
 NOTHING = "nothing was kept"
 _left_behind, _folder = NOTHING, ""
 
 
 def promise(verb: str, out: object, resumed: bool) -> None:
-    """Note what an interrupt of this verb leaves behind, given its --out; resumed: whether it keeps its runs
-    there."""
+    """Set the line for an interrupt of a verb; resumed: whether the verb can resume from its --out."""
     global _left_behind, _folder
     _folder = ""
     if verb == "live":
@@ -32,55 +31,53 @@ def promise(verb: str, out: object, resumed: bool) -> None:
     elif out is None:
         _left_behind = NOTHING
     elif resumed:
-        _left_behind = "the same command goes on"
+        _left_behind = "run the same command again to resume"
     else:
         _left_behind, _folder = f"files written so far are in {out}", str(out)
 
 
-def say() -> None:
-    """Print what an interrupt leaves behind, on standard error."""
+def report() -> None:
+    """Print the line for an interrupt on standard error."""
     empty = _folder and not any(Path(_folder).glob("[!.]*"))
     print(f"interrupted; {NOTHING if empty else _left_behind}", file=sys.stderr, flush=True)
 
 
 @contextmanager
 def heeded(last: bool = False) -> Iterator[None]:
-    """Let Ctrl-C end a block in time, whatever it does; only the main thread can arrange that.
-
-    last: the process ends with the block, and its status is known: a signal after it counts for nothing.
-    """
+    """End a block within PATIENCE after Ctrl-C; has an effect in the main thread alone. last: whether the
+    process ends with the block; later signals are then ignored."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _once)
-    heard, wake = os.pipe()
-    os.set_blocking(wake, False)
-    before = signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
-    over = threading.Event()
-    threading.Thread(target=_end_in_time, args=(heard, over), daemon=True).start()
+    read_end, write_end = os.pipe()
+    os.set_blocking(write_end, False)
+    previous = signal.set_wakeup_fd(write_end, warn_on_full_buffer=False)
+    done = threading.Event()
+    threading.Thread(target=_end_in_time, args=(read_end, done), daemon=True).start()
     try:
         yield
     finally:
-        over.set()
-        signal.set_wakeup_fd(before)
-        os.close(wake)
-        if signal.getsignal(signal.SIGINT) is _once:  # else there was one, and the process ends
+        done.set()
+        signal.set_wakeup_fd(previous)
+        os.close(write_end)
+        if signal.getsignal(signal.SIGINT) is _once:  # no interrupt has occurred
             signal.signal(signal.SIGINT, signal.SIG_IGN if last else signal.default_int_handler)
 
 
 def _once(number: int, frame: object) -> None:
-    """Raise KeyboardInterrupt once, and ignore further signals, which would interrupt the clearing up."""
+    """Raise KeyboardInterrupt once, and ignore further signals, which would interrupt the clean-up."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     raise KeyboardInterrupt
 
 
-def _end_in_time(heard: int, over: threading.Event) -> None:
-    """End the process if the block is not over some time after an interrupt."""
-    while woken_by := os.read(heard, 1):  # nothing once the other end is closed
-        if woken_by[0] == signal.SIGINT and not over.wait(PATIENCE):
+def _end_in_time(read_end: int, done: threading.Event) -> None:
+    """End the process if the block is not done within PATIENCE after an interrupt."""
+    while received := os.read(read_end, 1):  # empty when the other end is closed
+        if received[0] == signal.SIGINT and not done.wait(PATIENCE):
             if sys.stderr.isatty():
-                sys.stderr.write("\r\x1b[K\x1b[?25h")  # the spinner's line, and the cursor it has hidden
-            say()
+                sys.stderr.write("\r\x1b[K\x1b[?25h")  # clear the spinner's line, show its hidden cursor
+            report()
             os._exit(STATUS)
-    os.close(heard)
+    os.close(read_end)

@@ -23,13 +23,13 @@ def command(
 ) -> None:
     """Open a page with sliders, where lattice and shell are solved.
 
-    With --k it has a slider for k too.
+    The option --k adds a slider for k.
 
     The page is served on localhost only, at a secret URL. Ctrl-C ends it.
 
     Args:
         elements (N): Elements of the shell along the shorter side to start with.
-        port (PORT): Port to listen on; 0: any that is free.
+        port (PORT): Port to listen on; 0: any free port.
         browser: Open the page in a browser, or only print its address.
     """
     import webbrowser
@@ -45,10 +45,10 @@ def command(
     from comparisons.models.resolve import resolve
 
     loaded = load_static(scene)
-    meant = resolve(loaded, lattice.spec).spec
-    panel = Panel(loaded, parse_elements(elements), meant.but(grid=lattice.grid))
+    resolved = resolve(loaded, lattice.spec).spec
+    panel = Panel(loaded, parse_elements(elements), resolved.but(grid=lattice.grid))
 
-    # a browser's command line can be read by every user of the machine: it gets a file that only this one can
+    # Every user of the machine can read a browser's command line, so the secret address is in a private file.
     with (
         Server(panel, port) as server,
         NamedTemporaryFile("w", prefix="sheetbench-live-", suffix=".html") as file,

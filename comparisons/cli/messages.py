@@ -1,4 +1,4 @@
-"""Warnings and log messages of the packages, a line each on standard error."""
+"""Warnings and log messages of the packages as lines on standard error."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-shown: list[str] = []  # warnings of the command that runs, each once, for its JSON document
+shown: list[str] = []  # warnings of the running command, without repetitions, for its JSON document
 
 
 class _Lines(logging.Handler):
     def emit(self, record: logging.LogRecord) -> None:
-        """Write the message, beside a spinner too."""
-        from comparisons.cli import console  # with rich: help must not wait for it
+        """Print the message, also while a spinner runs."""
+        from comparisons.cli import console  # imports rich, slow for help
 
         console.tell(record.getMessage())
 
@@ -23,13 +23,13 @@ class _Lines(logging.Handler):
 def in_lines() -> Iterator[None]:
     """Show log messages and warnings of the packages as lines within a block."""
     shown.clear()
-    usual = warnings.showwarning
+    default = warnings.showwarning
 
-    def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+    def show(message: Warning | str, category: type[Warning], *place: Any, **keywords: Any) -> None:
         if category.__module__.split(".")[0] != "sheetbench":
-            usual(message, category, *where, **more)
+            default(message, category, *place, **keywords)
         elif str(message) not in shown:
-            from comparisons.cli import console  # with rich: help must not wait for it
+            from comparisons.cli import console  # imports rich, slow for help
 
             shown.append(str(message))
             console.warn(str(message))

@@ -33,22 +33,22 @@ def command(
 ) -> Annotated[Spectra | Linearisation, "state_space: Linearisation"]:
     """List natural frequencies; buckling loads; control matrices.
 
-    Frequencies of lattice and reference, of the flat sheet or about its equilibrium. With --state-space the
-    lattice is made linear, for control: inputs are the loads, forces at the probes, commands of chains
-    and positions of held edges; outputs the probes' displacements.
+    Frequencies of lattice and reference, of the flat sheet or about its equilibrium. --state-space linearises
+    the lattice for control: inputs are the loads, forces at the probes, commands of chains and positions of
+    held edges; outputs are the probes' displacements.
 
     Args:
-        count (N): How many modes, lowest first.
+        count (N): Number of modes, lowest first.
         masses (NAME): How the lattice's mass is lumped: {MASSES}. Default: higher-order, or the masses that
             springs were fitted with.
         reference (MODELS): {REFERENCES}. Default: {REFERENCE}.
         about (flat|deformed): About the flat, stress-free sheet, or its equilibrium under its loads (lattice
             and shell). Default: flat; deformed with --state-space.
-        buckling: Also the load factors at which the flat sheet buckles, with the shapes paired.
-        state_space (N): The lattice's linear form instead, with so many modes, 0 for all: poles, static
-            gains; --out writes M, C, K and the state space for NumPy and MATLAB.
-        reduce (HOW): With --state-space: balanced:8 keeps the 8 most important states; balanced:0.01 as few
-            as keep the error of every response below that share of its static value.
+        buckling: List the load factors at which the flat sheet buckles too, paired by shape.
+        state_space (N): Linearise the lattice instead, with N modes, 0 for all: poles, static gains; --out
+            writes M, C, K and the state space for NumPy and MATLAB.
+        reduce (HOW): Reduction of the states (with --state-space): balanced:8 keeps the 8 most important
+            ones; balanced:0.01 the fewest with a guaranteed error of 1 % of each static response.
     """
     from comparisons.models.grids import parse_elements
     from comparisons.modes.spectra import spectra
@@ -74,9 +74,6 @@ def command(
                 )
             )
         except NoEquilibrium as error:
-            what = (
-                "modes about the deformed sheet"
-                if state_space is None
-                else "linear form about the equilibrium"
-            )
-            out.stop(f"no {what}: {error}; --about flat has them")
+            deformed = "modes about the deformed sheet"
+            answer = deformed if state_space is None else "linear form about the equilibrium"
+            out.stop(f"no {answer}: {error}; use --about flat")

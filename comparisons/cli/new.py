@@ -8,12 +8,12 @@ from typing import Any
 
 from comparisons.cli.options import SheetOptions
 
-SHEET = {"length_x": 0.3, "length_y": 0.2, "thickness": 0.002}  # unless given
+SHEET = {"length_x": 0.3, "length_y": 0.2, "thickness": 0.002}  # defaults
 MATERIAL = {"young": 1.2e6, "poisson": 0.45, "density": 1100.0}
 NAMES = {"length_x": "side along x", "length_y": "side along y", "thickness": "thickness"}
 NAMES |= {"young": "E", "poisson": "ν", "density": "ρ"}
 UNITS = dict.fromkeys(SHEET, "m") | {"young": "Pa", "poisson": "", "density": "kg/m³"}
-ASKED = {  # what is asked, and the answer to an empty line
+QUESTIONS = {  # with the default answers
     "side": ("Sides, x by y", "300x200mm"),
     "thickness": ("Thickness", "2mm"),
     "young": ("Young's modulus E", "1.2MPa"),
@@ -33,14 +33,14 @@ def command(
 ) -> Path:
     """Write a commented scene to start from.
 
-    The scene is a sheet under its own weight, with what can be added as comments. In a terminal, without
-    options, it asks for them. The JSON Schema is written beside the file, for editors.
+    The scene is a sheet under its own weight, with optional parts as comments. Without options on a terminal,
+    the command prompts for values. The JSON Schema is written next to the file, for editors.
 
     Args:
         file (FILE, argument): The TOML file to write.
         density (KG/M3): Density: 1100 or 1.1g/cm3; default: 1100 kg/m³.
         clamped (EDGES): x0, x1, y0, y1. Default: x0.
-        overwrite: Replace the file where there is one.
+        overwrite: Replace an existing file.
     """
     from comparisons.cli import console
     from comparisons.models.quantities import checked
@@ -59,31 +59,32 @@ def command(
         raise BadInput(f"{file}: there is no folder {file.parent}")
     given, pressure = {key: value for key, value in sheet.values.items() if value is not None}, 0.0
     if not given and not clamped and console.asks():
-        given, clamped, pressure = _asked()
-    of_sheet, of_material = (
-        {key: given.get(key, usual[key]) for key in usual} for usual in (SHEET, MATERIAL)
+        given, clamped, pressure = _prompted()
+    sheet_values, material_values = (
+        {key: given.get(key, defaults[key]) for key in defaults} for defaults in (SHEET, MATERIAL)
     )
     edges = list(dict.fromkeys(clamped or ["x0"]))
     for edge in edges:
         require_choice("--clamped", edge, EDGES)
-    text = template(file.stem, checked(Sheet, of_sheet), checked(Material, of_material), edges, pressure)
-    if found := slips(Scene.model_validate(tomllib.loads(text))):
-        raise BadInput(f"{file} is not written: {'; '.join(found)}")
-    write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))  # a disk that is full leaves no scene
+    text = template(
+        file.stem, checked(Sheet, sheet_values), checked(Material, material_values), edges, pressure
+    )
+    if mistakes := slips(Scene.model_validate(tomllib.loads(text))):
+        raise BadInput(f"{file} is not written: {'; '.join(mistakes)}")
+    write_text(file.parent / SCHEMA, to_json(for_editors(Scene)))  # first: a full disk then leaves no scene
     write_text(file, text)
-    console.note(f"{file} written, and {SCHEMA} beside it for editors")
-    assumed = {key: value for key, value in (of_sheet | of_material).items() if key not in given}
-    told = [f"{NAMES[key]} = {value:g} {UNITS[key]}".rstrip() for key, value in assumed.items()]
-    told += [] if clamped else ["clamped at x0"]
-    if told:
-        console.note(f"Assumed, to be changed in it: {', '.join(told)}; weight along −z.")
+    console.note(f"{file} written, and {SCHEMA} next to it for editors")
+    defaults = {key: value for key, value in (sheet_values | material_values).items() if key not in given}
+    assumed = [f"{NAMES[key]} = {value:g} {UNITS[key]}".rstrip() for key, value in defaults.items()]
+    assumed += [] if clamped else ["clamped at x0"]
+    if assumed:
+        console.note(f"Assumed, to be changed in it: {', '.join(assumed)}; weight along −z.")
     console.note(f"Next:  sheetbench check {file}")
     return file
 
 
-def _asked() -> tuple[dict[str, Any], list[str], float]:
-    """Return what is typed: values by the keys of sheet and material, edges, and a pressure [Pa]; what cannot
-    be understood is asked again."""
+def _prompted() -> tuple[dict[str, Any], list[str], float]:
+    """Prompt for values of sheet and material by key, edges, and a pressure [Pa]; repeat invalid ones."""
     import typer
 
     from comparisons.cli import console
@@ -92,7 +93,7 @@ def _asked() -> tuple[dict[str, Any], list[str], float]:
     from sheetbench.scenes import EDGES
     from sheetbench.scenes.language.units import amount
 
-    def understood(key: str, text: str) -> Any:
+    def parsed(key: str, text: str) -> Any:
         if key == "side":
             return sides(text)
         if key == "clamped":
@@ -102,12 +103,12 @@ def _asked() -> tuple[dict[str, Any], list[str], float]:
             return edges
         return amount(key, text, UNITS.get(key, "Pa"))
 
-    found: dict[str, Any] = {}
-    for key, (question, usual) in ASKED.items():
-        while key not in found:
+    values: dict[str, Any] = {}
+    for key, (question, default) in QUESTIONS.items():
+        while key not in values:
             try:
-                found[key] = understood(key, typer.prompt(question, default=usual))
+                values[key] = parsed(key, typer.prompt(question, default=default))
             except BadInput as error:
                 console.warn(str(error))
-    size, edges, pressure = found.pop("side"), found.pop("clamped"), found.pop("pressure")
-    return {**size, **found}, edges, pressure
+    size, edges, pressure = values.pop("side"), values.pop("clamped"), values.pop("pressure")
+    return {**size, **values}, edges, pressure

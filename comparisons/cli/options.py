@@ -1,34 +1,33 @@
-"""What verbs take: options from a function's signature and docstring, and groups that several verbs share.
+"""Options of verbs from a function's signature and docstring, and groups of options shared by several verbs.
 
-An option has the name, type and default of a parameter; what it is for stands in the docstring, as
+An option has the name, type and default of a parameter; its description is in the docstring, as
 
     Args:
         elements (N): Elements along the shorter side; default: {ELEMENTS}.
 
-In brackets stands what a value is called, and `argument` where no option's name goes before it. Words in
-braces are values of the module or of `sheetbench.choices`, of a table its names. A command whose parameter is
-of the type `LatticeOptions` has --grid, --calibration, --k, --layer-distance and --grading; with
-`SpringOptions` the last three, beside lists of grids and calibrations of its own. `SheetOptions` are --young,
---poisson, --thickness, --density and --side; `CampaignOptions` those of many runs. Those of the output stand
-in `comparisons.cli.output`. What several have in common is described here.
+The parentheses contain the metavar, and `argument` for a positional argument. Words in braces are replaced by
+values of the module or of `sheetbench.choices`, tables by their names. A parameter of the type
+`LatticeOptions` adds --grid, --calibration, --k, --layer-distance and --grading to a command, `SpringOptions`
+the last three, for commands with their own lists of grids and calibrations. `SheetOptions` are --young,
+--poisson, --thickness, --density and --side, `CampaignOptions` the options of many runs. Output options are
+in `comparisons.cli.output`. Options of several verbs are described here.
 
 Args:
     scene (SCENE, argument): Catalogue name or path to a TOML file.
     grid (GRID): Masses of the lattice: 9, along the shorter side with near-square cells; 9x13, along x and y;
         9x13x3, with layers, else 2. Default: 9.
-    calibration (NAME): How k is found from E, ν and h: {CALIBRATIONS}; auto: the consistent one that suits
+    calibration (NAME): Method for k from E, ν and h: {CALIBRATIONS}; auto: the consistent one that suits
         the scene. Default: {CALIBRATION}; auto with --grading auto.
-    k (N/M): Stiffness of every spring; implies uniform.
+    k (N/M): Stiffness of every spring; sets the calibration to uniform.
     layer_distance (M): Distance of the lattice's layers.
-    grading (G): How much finer the lattice is at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1:
-        at these edges only; auto: by the scene's boundary layers. Default: 0.
+    grading (G): Refinement of the lattice at its edges, 0 (cells of one size) to 1; 0.5:x0 or 0.5:x0,x1: at
+        some edges only; auto: by the scene's boundary layers. Default: 0.
     elements (N): The reference's elements along the shorter side, or 8x4 along x and y.
     law (NAME): Law of strain of a shell or solid: {STRAIN_LAWS}. Default: the material's own, else
         {STRAIN_LAW}.
     model (MODELS): Further models: a plug-in's NAME, FILE.py:CLASS or exec:PROGRAM of your own, or lumped,
         plate, shell, solid; settings after it, as NAME:grid=9x5,k=550.
-    export (DIR): Write the lattice for another simulator: masses, springs, supports, loads, values to check
-        by.
+    export (DIR): Write the lattice for another simulator: masses, springs, supports, loads, check values.
     large: Solve models that need more memory than is free, instead of refusing them.
     json: Print one JSON document instead of tables.
     quiet: No progress and no notes on standard error; results, warnings and errors stay.
@@ -54,9 +53,9 @@ ENTRY = re.compile(r"\n    (\w+)(?: \(([^)]*)\))?: (.*(?:\n {8}.*)*)")
 
 @dataclass(frozen=True)
 class Kind:
-    """What an option takes beyond its type. unit: SI, of a number that may have a unit of its own, as
-    `--thickness "2 mm"`; choices: these alone, checked before the command runs; least: of a number;
-    separator: a regular expression of what stands between the items of a list."""
+    """Constraints of an option beyond its type; unit: SI unit of a number that may be given with another
+    unit, as `--thickness "2 mm"`; choices: valid values, checked before the command runs; least: smallest
+    number; separator: regular expression between the items of a list."""
 
     unit: str | None = None
     choices: tuple[str, ...] = ()
@@ -64,7 +63,7 @@ class Kind:
     separator: str = ","
 
 
-Models = Annotated[list[str] | None, Kind(separator=r",(?!\w+=)")]  # settings go on after a comma
+Models = Annotated[list[str] | None, Kind(separator=r",(?!\w+=)")]  # a comma may precede another setting
 Metres = Annotated[float | None, Kind("m")]
 Seconds = Annotated[float | None, Kind("s")]
 Share = Annotated[float | None, Kind("")]
@@ -73,7 +72,7 @@ Count = Annotated[int, Kind(least=1)]
 
 @dataclass(frozen=True)
 class Words:
-    """What an option is for; metavar: what its value is called; argument: whether it has no option's name."""
+    """Description of an option; metavar: name of its value; argument: whether it is positional."""
 
     text: str = ""
     metavar: str | None = None
@@ -81,28 +80,27 @@ class Words:
 
 
 def words_of(*documented: Any) -> dict[str, Words]:
-    """Return the words of options by name, from the docstrings of functions, classes and modules; the first
-    that describes one counts."""
-    found: dict[str, Words] = {}
-    for one in documented:
-        values = {**vars(choices), **vars(getmodule(one))}
-        for name, metavar, text in ENTRY.findall(cleandoc(one.__doc__ or "").partition("\nArgs:")[2]):
-            shown = _Shown().vformat(" ".join(text.split()), (), values)
-            called, argument = metavar.removesuffix(", argument"), metavar.endswith("argument")
-            found.setdefault(name, Words(shown, called or None, argument))
-    return found
+    """Return descriptions of options by name, from the docstrings of functions, classes and modules; the
+    first description of a name counts."""
+    out: dict[str, Words] = {}
+    for source in documented:
+        values = {**vars(choices), **vars(getmodule(source))}
+        for name, metavar, text in ENTRY.findall(cleandoc(source.__doc__ or "").partition("\nArgs:")[2]):
+            description = _ValueFormatter().vformat(" ".join(text.split()), (), values)
+            argument = metavar.endswith("argument")
+            out.setdefault(name, Words(description, metavar.removesuffix(", argument") or None, argument))
+    return out
 
 
-class _Shown(Formatter):
-    """Values in words: of several, all of them."""
+class _ValueFormatter(Formatter):
+    """Formatter of values in descriptions; lists are written as enumerations."""
 
     def format_field(self, value: Any, format_spec: str) -> str:
         return str(value) if isinstance(value, str | int) else choices.listed(value)
 
 
 class Group:
-    """A dataclass whose fields with words are options; no_effect: see `verb.no_effect`; left_out: fields that
-    are none."""
+    """A dataclass whose described fields are options, except `left_out`; no_effect: see `verb.no_effect`."""
 
     no_effect: ClassVar[dict[str, str]] = {}
     left_out: ClassVar[tuple[str, ...]] = ()
@@ -115,15 +113,15 @@ class Group:
             words_of(*cls.__mro__[:-1], sys.modules[__name__]),
         )
         return [
-            Parameter(one.name, Parameter.KEYWORD_ONLY, default=one.default, annotation=hints[one.name])
-            for one in fields(cls)  # type: ignore[arg-type]
-            if one.name in words and one.name not in cls.left_out
+            Parameter(entry.name, Parameter.KEYWORD_ONLY, default=entry.default, annotation=hints[entry.name])
+            for entry in fields(cls)  # type: ignore[arg-type]
+            if entry.name in words and entry.name not in cls.left_out
         ]
 
 
 @dataclass(frozen=True)
 class LatticeOptions(Group):
-    """The lattice of a verb; lattice: one that the options change, in Python."""
+    """The lattice of a verb; lattice: in Python, a lattice that the options change."""
 
     lattice: Any = None
     grid: str | None = None
@@ -134,18 +132,18 @@ class LatticeOptions(Group):
 
     @property
     def spec(self) -> Lattice:
-        """The lattice that is requested."""
-        from comparisons.models.spec import Lattice  # help does not wait for models
+        """The requested lattice."""
+        from comparisons.models.spec import Lattice  # slow import for help
         from sheetbench.errors import BadInput
 
-        own = {name: value for name, value in vars(self).items() if name != "lattice" and value is not None}
+        given = {name: value for name, value in vars(self).items() if name != "lattice" and value is not None}
         if not isinstance(self.lattice, Lattice | None):
             raise BadInput(f"lattice = {self.lattice!r}: a Lattice is needed")
-        return replace(self.lattice or Lattice(), **own)
+        return replace(self.lattice or Lattice(), **given)
 
 
 class SpringOptions(LatticeOptions):
-    """Settings that all lattices of a list have in common."""
+    """Common settings of all lattices of a list."""
 
     left_out = ("grid", "calibration")
 
@@ -170,7 +168,7 @@ class SheetOptions(Group):
 
     @property
     def values(self) -> dict[str, Any]:
-        """Values by the keys of a scene's sheet and material, None where they are not given."""
+        """Values by the keys of a scene's sheet and material, None if not given."""
         from comparisons.models.quantities import sides
 
         return {key: value for key, value in vars(self).items() if key != "side"} | sides(self.side)
@@ -178,14 +176,14 @@ class SheetOptions(Group):
 
 @dataclass(frozen=True)
 class CampaignOptions(Group):
-    """How a campaign's runs are carried out.
+    """Options of a campaign's execution.
 
     Args:
-        workers (N): Runs that are not timed go side by side, so many at most; default: one per core, or per
+        workers (N): Largest number of parallel runs, timed runs excepted; default: one per core, or per
             thread of the cluster.
-        scheduler (ADDRESS): A dask scheduler, as tcp://host:8786, whose workers carry out the runs; timed
-            ones all on one worker.
-        retry: Run again what failed in an earlier run.
+        scheduler (ADDRESS): A dask scheduler, as tcp://host:8786, whose workers carry out the runs, timed
+            runs all on one worker.
+        retry: Repeat failed runs of an earlier command.
     """
 
     no_effect: ClassVar[dict[str, str]] = {"without_out": "retry"}

@@ -1,6 +1,6 @@
 """The output of a verb: terminal or JSON document, files in a folder, exit status.
 
-This module alone reads `--json`, `--out`, `--overwrite` and knows the manifest, warnings and exit status 3.
+This module alone handles `--json`, `--out`, `--overwrite`, the manifest, warnings and exit status 3.
 """
 
 from __future__ import annotations
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
 Shown = TypeVar("Shown", bound="Answer")
 NOT_CONVERGED = 3
 PICTURES = (".svg", ".png", ".pdf", ".gif")
-COMPILED = 5.0  # s, above which it is noted: loading takes less
+COMPILED = 5.0  # s: longer compiling is noted; loading kernels takes less
 
 
 def command_line(verb: str, terminal: bool) -> list[str]:
-    """Return the command as it was given, to be kept beside its results."""
+    """Return the command line of this process for the record of its results."""
     return ["sheetbench", *sys.argv[1:]] if terminal else ["sheetbench", verb, "in Python"]
 
 
 @dataclass
 class Output:
-    """The terminal, the JSON document and the folder of a verb that runs."""
+    """The terminal, JSON document and folder of a running verb."""
 
     options: OutputOptions
     about: Mapping[str, Any]
@@ -51,27 +51,27 @@ class Output:
 
     @cached_property
     def progress(self) -> Callable[[Any], None]:
-        """What shows on standard error what is being done."""
+        """The function that shows progress on standard error."""
         if not self.options.terminal:
             from comparisons.models.context import context
 
             return context().progress
-        from comparisons.cli import console  # with rich: help must not wait for it
+        from comparisons.cli import console  # imports rich, slow for help
 
         return self.spinner.enter_context(console.progress())
 
     def keep(self, name: str, write: Write) -> None:
-        """Write a file of the answer at once, if there is a folder."""
+        """Write a file of the answer immediately, if a folder is given."""
         if self.folder is not None:
             self.folder.write(name, write)
 
     def reserve(self, name: str) -> Path | None:
-        """Return the path of a file, or of a folder if the name ends in "/", that a run fills by itself."""
+        """Return the path of a file, or of a folder if the name ends in "/", which the caller writes."""
         return None if self.folder is None else self.folder.reserve(name)
 
     @contextmanager
     def campaign(self, options: CampaignOptions) -> Iterator[dict[str, Any]]:
-        """Yield the keywords of a campaign: its store, in the folder or passing, workers, pool, progress."""
+        """Yield the keywords of a campaign: store (temporary without folder), workers, pool, progress."""
         from comparisons.sweep.campaign import campaign
         from comparisons.sweep.executors import pool_of
         from comparisons.sweep.store import FILE
@@ -87,8 +87,8 @@ class Output:
             }
 
     def stop(self, complaint: str) -> NoReturn:
-        """End the command without an answer: the reason, also as the document's `stopped`, exit status 3;
-        in Python NoEquilibrium."""
+        """End the command without an answer: print the reason, also as the document's `stopped`, with exit
+        status 3. Raises NoEquilibrium in Python."""
         from comparisons.cli import console
         from sheetbench.errors import NoEquilibrium
 
@@ -102,18 +102,15 @@ class Output:
         raise typer.Exit(NOT_CONVERGED)
 
     def show(self, answer: Shown, instead: str | None = None) -> Shown:
-        """Write the files, print the document, the tables or the text `instead` of them, and warn; return the
-        answer.
-
-        Exits with status 3 where the answer is incomplete. In Python it writes the files alone.
-        """
+        """Write the files, print warnings and the document, the tables or the text `instead` of them. Returns
+        the answer. Exits with status 3 for an incomplete answer. A call in Python writes the files alone."""
         from comparisons.cli import console
 
         if not self.options.terminal and self.folder is None:
             return answer
         report = answer.report()
-        own = report.document.get("warnings", ())  # before those about the scene
-        document = {**report.document, "warnings": [*own, *messages.shown]}
+        warnings = report.document.get("warnings", ())  # before warnings about the scene
+        document = {**report.document, "warnings": [*warnings, *messages.shown]}
         pictures = () if self.options.no_pictures else report.pictures
         notes = (*report.notes, *self.notes)
         report = replace(report, document=document, pictures=pictures, notes=notes).with_styles(self.styles)
@@ -149,12 +146,12 @@ class Output:
         notes = list[str]()
         if (spent := clock.compiled()) > COMPILED:
             notes.append(
-                f"Kernels were compiled, once on this machine: {spent:.3g} s, in none of the times shown."
+                f"Kernels were compiled, once on this machine: {spent:.3g} s, not in the times shown."
             )
-        shown = len(report.notes) if console.verbose else report.notes_shown
-        notes += report.notes[:shown]
-        if (left := len(report.notes) - shown) > 0:
-            notes.append(f"{left} more {'note' if left == 1 else 'notes'}: --verbose")
+        count = len(report.notes) if console.verbose else report.notes_shown
+        notes += report.notes[:count]
+        if (hidden := len(report.notes) - count) > 0:
+            notes.append(f"{hidden} more {'note' if hidden == 1 else 'notes'}: --verbose")
         if self.folder is not None:
             notes.append(self._written())
         if notes and not (report.shown and report.shown[-1].text):
@@ -163,7 +160,7 @@ class Output:
             console.note(note)
 
     def _written(self) -> str:
-        """Return the line that counts the files in the folder; --verbose: names them, pictures first."""
+        """Return a line with the number of files in the folder; --verbose adds their names."""
         from comparisons.cli import console
 
         assert self.folder is not None
@@ -174,11 +171,11 @@ class Output:
 
 @dataclass(frozen=True)
 class OutputOptions(Group):
-    """Where the answer of a verb goes; terminal: not in Python.
+    """Output options of a verb; terminal: whether the command line called it.
 
     Args:
         out (DIR): Write files into this folder.
-        overwrite: With --out: first remove what an earlier run left there; its manifest lists it.
+        overwrite: First delete the files listed in an earlier run's manifest (with --out).
     """
 
     no_effect: ClassVar[dict[str, str]] = {"without_out": "overwrite"}
@@ -192,7 +189,7 @@ class OutputOptions(Group):
 
     @property
     def styles(self) -> tuple[FigureStyle, ...]:
-        """The styles of pictures. Raises BadInput for formats that do not exist."""
+        """The styles of pictures. Raises BadInput for unknown formats."""
         from sheetbench.answers.figure_style import parse_figure
 
         return parse_figure(None if self.figure is None else ",".join(self.figure))
@@ -206,12 +203,11 @@ class OutputOptions(Group):
         variant: Mapping[str, Any] | None = None,
         alone: bool = False,
     ) -> Iterator[Output]:
-        """Open the output of a verb, to be shown its report.
+        """Open the output of a verb for its answer.
 
-        scene, or about: what the answer is about; variant: options that decide which files it leaves; alone:
-        no other process may write to the folder meanwhile (campaigns see to that themselves). Raises BadInput
-        for a folder that cannot be made, or that holds files of something else. A NoEquilibrium within stops
-        the command.
+        scene, or about: subject of the answer; variant: options that determine its files; alone: whether to
+        lock the folder against other processes (campaigns do this themselves). Raises BadInput for a folder
+        that cannot be made or holds unrelated files. A NoEquilibrium in the block stops the command.
         """
         from comparisons.models.context import running
         from sheetbench.errors import NoEquilibrium
@@ -250,12 +246,12 @@ class OutputOptions(Group):
 
 @dataclass(frozen=True)
 class PictureOptions(OutputOptions):
-    """The output of a verb that draws pictures.
+    """Output options of a verb that draws pictures.
 
     Args:
-        figure (FORMATS): With --out: pictures for a paper, without a title, as pdf, svg or png;
+        figure (FORMATS): Pictures for a paper, without a title, as pdf, svg or png (with --out);
             pdf:single,png:single as wide as one column (89 mm), else as both (183 mm).
-        no_pictures: With --out: all files but the pictures. Every verb takes it, for scripts.
+        no_pictures: Write all files but the pictures (with --out). Every verb accepts it, for scripts.
     """
 
     no_effect: ClassVar[dict[str, str]] = {

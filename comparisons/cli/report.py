@@ -1,4 +1,4 @@
-"""`sheetbench report DIR`: one HTML file of whatever studies a folder holds."""
+"""`sheetbench report DIR`: one HTML file of all studies in a folder."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ def command(
 ) -> Path:
     """Write one HTML file with all runs below a folder.
 
-    The folder and those below it are read; a study is what a verb wrote with --out, as its manifest says. The
-    page has sheets to turn, tables to sort, figures, notes and manifests, and needs no network.
+    The folder and its subfolders are read; a study is the output of a verb with --out, listed in a manifest.
+    The page has 3D sheets, sortable tables, figures, notes and manifests, and needs no network.
 
     Args:
-        folder (DIR, argument): A folder that verbs wrote to with --out.
+        folder (DIR, argument): A folder with output of verbs (--out).
         out (DIR): Folder of the page, report.html, or FILE.html. Default: DIR.
         open_: Open the page in the browser.
     """
@@ -50,10 +50,10 @@ def command(
         studies = [{"place": s.place, "verb": s.verb, "title": s.title} for s in contents.studies]
         console.document({"file": str(target), "bytes": size, "studies": studies, "troubles": troubles})
     else:
-        many = len(contents.studies)
-        console.note(f"{many} {'study' if many == 1 else 'studies'} in {target}, {memory_of(size)}")
+        count = len(contents.studies)
+        console.note(f"{count} {'study' if count == 1 else 'studies'} in {target}, {memory_of(size)}")
     if open_ and not browse(target.resolve().as_uri()):
-        console.warn("There is no browser here: open the page where there is one.")
+        console.warn("No browser was found: open the page by hand.")
     for trouble in troubles:
         console.warn(trouble)
     return target

@@ -1,4 +1,4 @@
-"""`sheetbench study reproduction`: Habibi et al.'s study again."""
+"""`sheetbench study reproduction`: reproduction of Habibi et al.'s study."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def command(
 ) -> Any:
     """Reproduce Habibi et al.'s study from its published inputs: errors, both tests, the settling run.
 
-    With which sheets come nearest to the published tables, and what in them no sheet can have.
+    The answer includes the sheets nearest to the published tables, and entries that no sheet reproduces.
 
     Args:
         part (NAMES): Only {REPRODUCED}. Default: all.

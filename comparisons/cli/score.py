@@ -1,4 +1,4 @@
-"""`sheetbench score [ANSWERS.csv]`: the reference set, and somebody's answers against it."""
+"""`sheetbench score [ANSWERS.csv]`: the reference set, and a user's answers against it."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ def command(
     case: list[str] | None = None,
     output: PictureOptions,
 ) -> Annotated[Suite | Score, "answers: Score"]:
-    """List the reference set, or score somebody's answers to it.
+    """List the reference set, or score your answers to it.
 
-    Without ANSWERS list the set: scenes with converged values, error bars, and why each is in it; --out
-    writes its scenes, its values as CSV and JSON (CC-BY-4.0), and a form to fill in, where cases left empty
-    are left out. Of ANSWERS: errors, likely mistakes (units, signs, swapped probes), rank. Exit status 3
-    where units, signs or probes are mistaken.
+    Without ANSWERS the set is listed: scenes with converged values, error bars and a reason for each; --out
+    writes its scenes, its values as CSV and JSON (CC-BY-4.0), and a form to fill in, whose empty cases are
+    ignored. A score has errors, likely mistakes (units, signs, swapped probes) and a rank. Exit status 3 for
+    a likely mistake.
 
     Args:
         answers ([ANSWERS], argument): CSV: case,probe[,time],ux,uy,uz[,seconds] in m, s; without it, the set
             is listed.
-        suite (NAME): The suite answered or listed: {SUITES}. Default: by the header and cases of ANSWERS; all
+        suite (NAME): The suite to score or list: {SUITES}. Default: by the header and cases of ANSWERS; all
             are listed.
-        case (NAMES): Only these cases.
+        case (NAMES): A selection of cases.
     """
     from comparisons.scoring.score import score
     from comparisons.scoring.suite import Suite

@@ -28,18 +28,19 @@ def command(
     large: bool = False,
     output: PictureOptions,
 ) -> Simulation:
-    """Move the lattice from rest; with --out it streams and resumes.
+    """Simulate the lattice in motion, from rest.
 
-    Gravity and loads are on at t = 0. With --out the same command resumes a run.
+    Gravity and loads are on at t = 0. A run with --out is saved continuously; run the command again to
+    resume.
 
     Args:
-        duration (S): How long to simulate.
+        duration (S): Simulated time.
         step (S): Largest time step. Default: from the stability limit or the error.
-        error (FRACTION): Error of a step, of the displacement, for integrators that choose their steps.
+        error (FRACTION): Error per step, relative to the displacement, for integrators with step control.
         integrator (NAME): {SUMMARIES}; auto: esdirk; generalised-alpha with chains;
             verlet with obstacles, unless dampers make its steps much shorter.
         every (S): Time between samples. Default: 1/100 of the lowest period.
-        animate: Also draw an animation (with --out).
+        animate: Draw an animation too (with --out).
     """
     from comparisons.comparison.simulation import Simulation
     from comparisons.models.resolve import resolve
@@ -50,7 +51,7 @@ def command(
     model = resolve(loaded, lattice.spec, "motion")
     run = {"--integrator": integrator, "--step": step, "--every": every, "--error": error}
     run |= {f"--{name}": value for name, value in lattice.spec.settings.items()}
-    chosen: dict[str, Any] = {} if error is None else {"error": error}
+    keywords: dict[str, Any] = {} if error is None else {"error": error}
     with output.open(scene=loaded, variant=run, alone=True) as out:
         history = simulate(
             model,
@@ -60,7 +61,7 @@ def command(
             every=every,
             store=out.reserve("run/"),
             frames=FRAMES if output.out is not None else 0,
-            **chosen,
+            **keywords,
         )
         out.reserve("frames/")
         return out.show(Simulation(**vars(history), scene=loaded, animate=animate))

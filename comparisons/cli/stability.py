@@ -1,4 +1,4 @@
-"""`sheetbench stability SCENE`: where each model of a scene holds, degrades, refuses or fails."""
+"""`sheetbench stability SCENE`: ranges in which each model of a scene holds, degrades, refuses or fails."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def command(
 ) -> Stability:
     """Map where each model is accurate, degrades, refuses or fails.
 
-    Its load, thickness, Young's modulus, grid, damping and time step are varied over decades; of the explicit
-    integrators the largest stable step is shown. With --out an interrupted run is resumed.
+    Load, thickness, Young's modulus, grid, damping and time step are varied over decades; for explicit
+    integrators the largest stable step is shown. Run the command again with --out to resume.
 
     Args:
         vary (NAMES): Only {VARIED}. Default: all.
-        reference (MODEL): What errors are measured from: {REFERENCES}.
+        reference (MODEL): Reference of the errors: {REFERENCES}.
         elements (N): Elements of the references along the shorter side, or 8x4 along x and y.
     """
     from comparisons.models.grids import parse_elements

@@ -1,4 +1,4 @@
-"""`sheetbench study NAME`: the reproduction of the published study, and in a checkout those of `studies`."""
+"""`sheetbench study NAME`: the reproduction of the published study, and in a checkout the studies there."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import typer
 CONTEXT = {"ignore_unknown_options": True, "help_option_names": []}  # options are the study's, help too
 CHECKOUT = Path(__file__).parents[2]
 LABORATORY = "studies"
-INSTALLED = {"reproduction": "Habibi et al. again: errors, tables, settling run, the nearest sheets"}
+INSTALLED = {"reproduction": "Habibi et al. reproduced: errors, tables, settling run, the nearest sheets"}
 HELP = ("-h", "--help")
 
 
@@ -24,12 +24,12 @@ def command(
 ) -> None:
     """Run a study: reproduction, and in a checkout the laboratory's.
 
-    Without NAME the studies that are installed are listed.
+    Without NAME the installed studies are listed.
 
     Args:
         name (NAME, argument): Name of the study; without it, all are listed.
         options (ARGUMENTS, argument): Arguments of the study: sheetbench study NAME --help.
-        no_pictures: With --out: all files but the pictures.
+        no_pictures: Write all files but the pictures (with --out).
     """
     from comparisons.cli import console
     from sheetbench.answers.table import Column, Table
@@ -46,7 +46,7 @@ def command(
     from comparisons.cli.verb import as_verb
 
     module = module_of(str(name))
-    markup = getattr(context.find_root().command, "rich_markup_mode", None)  # as wide as the terminal is
+    markup = getattr(context.find_root().command, "rich_markup_mode", None)  # None on narrow terminals
     app = typer.Typer(rich_markup_mode=markup, context_settings={"help_option_names": list(HELP)})
     app.command(name)(as_verb(str(name), module.command))
     given = [*(options or ()), *(["--no-pictures"] if no_pictures else ())]
@@ -57,7 +57,7 @@ def command(
 
 
 def module_of(name: str) -> ModuleType:
-    """Return the module whose `command` is the study's. Raises BadInput for a study that is not here."""
+    """Return the module with the `command` of a study. Raises BadInput for an unknown study."""
     from sheetbench.errors import BadInput, require_choice
 
     studies = _studies()
@@ -67,15 +67,15 @@ def module_of(name: str) -> ModuleType:
             "'make install' there, then .venv/bin/sheetbench study NAME"
         )
     require_choice("study", name, studies)
-    own = f"{LABORATORY}.{name.replace('-', '_')}.command"
-    return import_module(f"comparisons.cli.{name}" if name in INSTALLED else own)
+    path = f"{LABORATORY}.{name.replace('-', '_')}.command"
+    return import_module(f"comparisons.cli.{name}" if name in INSTALLED else path)
 
 
 def _in_checkout() -> bool:
-    """Return whether these packages stand in a checkout."""
+    """Return whether the packages are in a checkout of the repository."""
     return (CHECKOUT / LABORATORY / "__init__.py").is_file()
 
 
 def _studies() -> dict[str, str]:
-    """Return every study that is here, with what it is about."""
+    """Return the available studies with their descriptions."""
     return {**INSTALLED, **(import_module(LABORATORY).STUDIES if _in_checkout() else {})}

@@ -27,12 +27,12 @@ def command(
 ) -> Variation:
     """Solve a scene for many values of its keys.
 
-    Lattice, reference and further models of every combination of the values; run it again to resume.
+    Lattice, reference and further models are solved for every combination of values; run it again to resume.
 
     Args:
         vary (KEY=VALUES): A key of the scene's file and its values: sheet.thickness=1mm,2mm,
             material.young=0.3MPa..3MPa:5 (five from end to end), support.1.tilt=0,0.1.
-        reference (MODEL): What errors are against: {REFERENCES}; "" for none.
+        reference (MODEL): Reference of the errors: {REFERENCES}; "" for none.
         elements (N): The reference's elements along the shorter side, or 8x4 along x and y; default:
             {ELEMENTS}.
     """
@@ -51,6 +51,6 @@ def command(
     loaded = scene_of(scene)
     models = [lattice.spec, *map(parse, model or ())]
     with output.open(scene=loaded) as out:
-        with out.campaign(campaign) as run:
-            found = varied(loaded, vary, models=models, reference=truth, **run)
-        return out.show(found)
+        with out.campaign(campaign) as keywords:
+            answer = varied(loaded, vary, models=models, reference=truth, **keywords)
+        return out.show(answer)

@@ -51,18 +51,18 @@ def command(
 ]:
     """Trade error against time over models, or choose the cheapest.
 
-    What each model gets wrong and what it costs; run it again to resume. An empty list leaves a model out:
-    --solid "". With --tolerance or --budget it names one model and the command that solves it; exit status 3
-    where none meets the tolerance.
+    Errors and costs of many models are listed; run it again to resume. An empty list leaves a model out:
+    --solid "". The options --tolerance and --budget choose one model, with the command that solves it; exit
+    status 3 if none meets the tolerance.
 
     Args:
-        tolerance (FRACTION): Find the cheapest model with no larger error, as 0.01 or 1%, with as few solves
-            as possible. 0.01 with --budget alone. Empty lists leave models out.
-        budget (SECONDS): The most accurate model that is solved in this time, set-up not included.
+        tolerance (FRACTION): Find the cheapest model within this error, as 0.01 or 1%, with as few solves as
+            possible. Empty lists leave models out.
+        budget (SECONDS): Find the most accurate model within this solve time, set-up not included.
         grid (GRIDS): Masses of lattices: along the shorter side with near-square cells, or NxM, NxMxL.
             Default: {usual.GRIDS}; 9 with --duration.
         calibration (NAMES): Calibrations of every grid: {CALIBRATIONS}; auto: by the scene. Default:
-            {usual.SPRINGS}; with --duration that of `simulate`.
+            {usual.SPRINGS}; with --duration as in `simulate`.
         plate (ELEMENTS): Elements of the linear plate along the shorter side, or NxM; default:
             {usual.MESHES[plate]}.
         shell (ELEMENTS): Elements of the nonlinear shell along the shorter side, or NxM; default:
@@ -70,11 +70,11 @@ def command(
         solid (ELEMENTS): Elements of the nonlinear solid along the shorter side, or NxM; default:
             {usual.MESHES[solid]}; {usual.MOVING[solid]} with --duration.
         elements (N): Elements of the reference shell along the shorter side, or 8x4 along x and y; default:
-            twice the finest one's, at least 32; 16 with --duration.
+            twice the finest shell's, at least 32; 16 with --duration.
         repeats (N): Least number of timed solves of every row at rest. Default: {usual.REPEATS}.
         duration (S): Trade-off of the motion over this time instead: lattices by integrator and step, the
             other models by their error per step.
-        integrator (NAMES): With --duration: some of {INTEGRATORS}. Default: all.
+        integrator (NAMES): Some of {INTEGRATORS} (with --duration). Default: all.
     """
     from comparisons.comparison.comparison import load_static
     from comparisons.models.grids import parse_elements
@@ -90,30 +90,31 @@ def command(
     meshes = dict(zip(REFERENCES, (plate, shell, solid), strict=True))
     if tolerance is not None or budget is not None:
         lists = {"lumped": grid, **meshes}
-        require_effect("with --tolerance or --budget", {f"--{name}": of for name, of in lists.items()})
+        require_effect("with --tolerance or --budget", {f"--{name}": n for name, n in lists.items()})
         if len(calibration or ()) > 1:
             raise BadInput("--calibration: with --tolerance or --budget one calibration")
-        models = [name for name, of in lists.items() if of is None and name != "solid"]
+        models = [name for name, n in lists.items() if n is None and name != "solid"]
         springs = lattice.spec if not calibration else lattice.spec.but(calibration=calibration[0])
         with output.open(scene=loaded, variant={"--tolerance": True}) as out:
-            found = advise(loaded, tolerance, budget, springs, models=models)
-            return out.show(replace(found, called=scene) if isinstance(scene, str) else found)
-    own, meshes_of = lattice.spec, usual.MESHES | ({} if duration is None else usual.MOVING)
-    others, extra = choices.of_references(meshes, meshes_of), list(map(parse, model or ()))
+            advice = advise(loaded, tolerance, budget, springs, models=models)
+            return out.show(replace(advice, called=scene) if isinstance(scene, str) else advice)
+    default_meshes = usual.MESHES | ({} if duration is None else usual.MOVING)
+    others = [*choices.of_references(meshes, default_meshes), *map(parse, model or ())]
     reference = None if elements is None else Elements(REFERENCE, parse_elements(elements))
     if duration is not None:
-        more: dict[str, Any] = {"lattices": choices.moving_lattices(own, grid, calibration)}
         measure: Any = dynamic_tradeoff
-        more |= {"duration": duration, "integrators": integrator or sorted(INTEGRATORS)}
-        more |= {"others": [*others, *extra]}
+        arguments: dict[str, Any] = {
+            "lattices": choices.moving_lattices(lattice.spec, grid, calibration),
+            **{"duration": duration, "integrators": integrator or sorted(INTEGRATORS), "others": others},
+        }
     else:
         measure = tradeoff
-        lattices, reasons = choices.of_lattices(loaded, own, grid, calibration)
+        lattices, reasons = choices.of_lattices(loaded, lattice.spec, grid, calibration)
         repeats = repeats or usual.REPEATS
-        more = {"candidates": [*lattices, *others, *extra], "reasons": reasons, "repeats": repeats}
-        if not more["candidates"]:
+        arguments = {"candidates": [*lattices, *others], "reasons": reasons, "repeats": repeats}
+        if not arguments["candidates"]:
             raise BadInput("no model left to measure")
     with output.open(scene=loaded) as out:
-        with out.campaign(campaign) as run:
-            traded = measure(loaded, **run, reference=reference, **more)
-        return out.show(traded)
+        with out.campaign(campaign) as keywords:
+            answer = measure(loaded, **keywords, reference=reference, **arguments)
+        return out.show(answer)

@@ -17,10 +17,10 @@ def command(
 ) -> Verification:
     """Check the references against published values.
 
-    One row each: exit status 3 unless all pass.
+    Each case is a row; exit status 3 unless all pass.
 
     Args:
-        case (NAMES): Only these cases. Default: all.
+        case (NAMES): A selection of cases. Default: all.
     """
     from fem_reference.verification import verify
 

@@ -38,12 +38,10 @@ class Tables:
         values = np.asarray(values)
         if kind == "":
             kind = smallest(values.max(initial=0))
-        shape = "".join(f"[{max(1, n)}]" for n in values.shape)
-        text = (
-            self.values(values, kind is not None)
-            if values.size
-            else "{" * values.ndim + "0" + "}" * values.ndim
-        )
+        if not values.size:
+            values = np.zeros([max(1, n) for n in values.shape])
+        shape = "".join(f"[{n}]" for n in values.shape)
+        text = self.values(values, kind is not None)
         self.text.append(f"{storage}const {kind or 'real'} {name}{shape} = {text};")
 
     def define(self, **numbers: int) -> None:
@@ -51,7 +49,7 @@ class Tables:
         self.text += [f"#define {name} {int(value)}" for name, value in numbers.items()]
 
     def sparse(self, name: str, rows: Any) -> None:
-        """Add a sparse matrix: where rows start, where their entries are, and these."""
+        """Add a sparse matrix in compressed rows: starts of rows, columns and values of entries."""
         import scipy.sparse as sp
 
         rows = sp.csr_array(rows)
@@ -86,7 +84,7 @@ def smallest(most: int, least: str = "unsigned char") -> str:
 
 
 def identifiers(prefix: str, names: Iterable[str]) -> list[str]:
-    """Return C's names of what has these names, numbered where they would be the same."""
+    """Return identifiers in C for names, with a number where two would be equal."""
     found: list[str] = []
     for n, name in enumerate(names):
         one = f"{prefix}_{re.sub(r'[^A-Za-z0-9]+', '_', name).strip('_').upper()}"

@@ -51,12 +51,24 @@ class Element:
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell of a sheet that repeats.
+    """A repeated cell of a sheet. Raises BadInput for an invalid cell.
 
-    periods (2, 2) [m]; nodes (n, 3) [m], z from the mid-surface; triangles of three places each; hinge: the
-    weight of the hinges between triangles, "" for none; springs: two places and the name of a coefficient;
-    bricks of eight places each.
-    Raises BadInput for what is no cell.
+    Parameters
+    ----------
+    name : str
+        Name for tables and messages.
+    periods : ndarray, (2, 2) [m]
+        The two periods in the plane.
+    nodes : ndarray, (n, 3) [m]
+        Nodes of the cell, z from the mid-surface.
+    triangles : tuple of three places each, optional
+        Triangles between nodes, which may lie in neighbouring cells.
+    hinge : {"", "angle", "length", "height"}, optional
+        Weight of the hinges between triangles, "" for none.
+    springs : tuple of two places and a name each, optional
+        Springs with the names of their coefficients.
+    bricks : tuple of eight places each, optional
+        Bricks between nodes.
     """
 
     name: str
@@ -128,7 +140,7 @@ class Cell:
 
 
 def from_toml(path: Path) -> Cell:
-    """A cell of a file, with lengths in metres. Raises BadInput with the file and what is wrong."""
+    """A cell of a file, with lengths in metres. Raises BadInput with the file and the fault."""
     try:
         data: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
         if unknown := set(data) - KEYS:
@@ -214,11 +226,28 @@ SEED, SIDE, JITTER = 7, 5, 0.25  # of the unstructured mesh: points along a side
 def cell_of(
     cell: str, spacing: float | None = None, thickness: float | None = None, hinge: str | None = None
 ) -> Cell:
-    """The cell of a mesh's name, with its nodes `spacing` [m] apart, or of a file that ends in .toml.
+    """Return the repeated cell of a mesh by its name, or of a TOML file.
 
-    thickness [m]: of bricks, of which one is in the thickness; hinge: the energy of the others' hinges, of
-    `comparisons.codes.cell.HINGES`, "length" unless given. Raises BadInput for another name, for what is
-    missing, and for what has no effect on this cell.
+    Parameters
+    ----------
+    cell : str
+        A name of a mesh, or a path that ends in .toml.
+    spacing : float [m], optional
+        Distance of neighbouring nodes; necessary for a name.
+    thickness : float [m], optional
+        Thickness of bricks, one of which is in the thickness.
+    hinge : {"angle", "length", "height"}, optional
+        Energy of the hinges of other meshes, "length" unless given.
+
+    Returns
+    -------
+    Cell
+        The cell.
+
+    Raises
+    ------
+    BadInput
+        An unknown name, or an argument that is missing or has no effect on the cell.
     """
     if cell.endswith(".toml"):
         require_effect(f"on {cell}, which has its own", {"spacing": spacing, "hinge": hinge})
@@ -264,7 +293,7 @@ def _equilateral() -> _Parts:
 
 
 def _unstructured() -> _Parts:
-    """Delaunay triangles of points of a grid that are moved at random, the same ones on every machine."""
+    """Delaunay triangles of points of a grid that are moved at random, alike on every machine."""
     grid = np.array([[i, j] for i in range(SIDE) for j in range(SIDE)], dtype=float)
     points = (grid + JITTER * np.random.default_rng(SEED).uniform(-1.0, 1.0, grid.shape)) % SIDE
     tiles = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]

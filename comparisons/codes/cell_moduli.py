@@ -181,12 +181,12 @@ def homogenise(
     hinge: str | None = None,
     coefficients: Mapping[str, float] | None = None,
 ) -> CellModuli:
-    """Return a cell's coefficients for a scene's sheet, and what they give: those nearest to its moduli, and
-    of hinges the one that is best in the scene.
+    """Return a cell's coefficients for a scene's sheet, and the moduli that they give: those nearest to its
+    moduli, and of hinges the one that is best in the scene.
 
     cell: a name or a file, whose nodes are `spacing` [m] apart, an eighth of the shorter side unless given,
-    with the energy of a `hinge`; or a `Cell`. coefficients: taken in place of those found. Where the scene's
-    sheet has no stable equilibrium the answer has no error and says so. Raises BadInput for a coefficient
+    with the energy of a `hinge`; or a `Cell`. coefficients: taken in place of those found. The answer has no
+    error, and a note, for a scene whose sheet has no stable equilibrium. Raises BadInput for a coefficient
     that the cell does not have, a scene without an answer at rest, and spacing and hinge of a cell that has
     its own.
     """
@@ -221,7 +221,7 @@ def homogenise(
 
 
 def given_coefficients(entries: Sequence[str]) -> dict[str, float]:
-    """Return coefficients by name from NAME=VALUE texts. Raises BadInput for what is none."""
+    """Return coefficients by name from NAME=VALUE texts. Raises BadInput for an invalid one."""
     given: dict[str, float] = {}
     for entry in entries:
         name, _, value = entry.partition("=")

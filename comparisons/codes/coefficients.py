@@ -6,11 +6,11 @@ curvatures κ and transverse shears γ (x, y, xy with the engineering shear; x, 
 
     u = e x − z κ x,    w = ½ x·κ x + γ·x,
 
-and by displacements that repeat from cell to cell, for which the energy is least; those neither move the
-cell nor turn it through its thickness. The field in another cell differs by a rigid motion, so that the
-energy of one cell is that of all.
+and by displacements that repeat from cell to cell, for which the energy is least; those neither move the cell
+nor turn it through its thickness. The field in another cell differs by a rigid motion, so that all cells have
+one energy.
 
-Codes that know no more have sheets of springs of one stiffness: along the sides of triangles, or of
+Codes without such laws have sheets of springs of one stiffness: along the sides of triangles, or of
 tetrahedra in one layer, whose height is then free to be chosen. Squares are cut into five tetrahedra each,
 neighbours mirrored, so that they share their faces' diagonals.
 """
@@ -116,7 +116,8 @@ TURNED = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0
 def nearest(
     cell: Cell, material: Material, thickness: float, fixed: Mapping[str, float] | None = None
 ) -> dict[str, float]:
-    """Coefficients, none negative, whose moduli come nearest to the sheet's; those of `fixed` as they are.
+    """Coefficients, none negative, whose moduli come nearest to the sheet's; coefficients in `fixed` as they
+    are.
 
     Triangles have the membrane's λh = E ν h/(1 − ν²) and μh = E h/2(1 + ν), bricks Lamé's constants. The
     others are found by least squares over A and D, each over its 11, in a norm that no turn of the axes
@@ -148,11 +149,11 @@ def nearest(
 
 
 def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
-    """The error in a scene of a mesh of this cell, however fine: that of a shell with the cell's moduli.
+    """The error in a scene of a mesh of this cell, however fine: the one of a shell with the cell's moduli.
 
-    elements: along the side of a square, as many in all on others. The shell takes large rotations, as such
-    meshes do. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, or one
-    of these moduli, has no stable equilibrium in the scene.
+    elements: along the side of a square, as many in all on others. The shell takes large rotations, like
+    these meshes. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, or
+    one of these moduli, has no stable equilibrium in the scene.
     """
     return limit_errors(scene, elements)(moduli)
 
@@ -260,7 +261,7 @@ def _along_sides(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Plac
 def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[str, float]:
     """k [N/m] and the layers' distance [m] of tetrahedra.
 
-    k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or what is best in
+    k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or the best fit to
     the scene. Raises NoEquilibrium where the scene's sheet has no stable one.
     """
     own = section_of(scene.material, scene.sheet.thickness)

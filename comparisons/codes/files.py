@@ -1,9 +1,9 @@
 """The files of a sheet of triangles, by code: sheet.json, a script that needs the code and NumPy alone, and
 what else the code reads. `Problem` is what every writer starts from.
 
-MuJoCo's sheet is a flex. Vertices slide along x, y and z; what is held has no joints there. Loads other than
-weight are motors, whose keyframe `loaded` says how much. Source: MuJoCo's XML reference, `deformable/flex`,
-`keyframe`.
+MuJoCo's sheet is a flex. Vertices slide along x, y and z; held vertices have no joints there. Loads other
+than weight are motors, with their forces in the keyframe `loaded`. Source: MuJoCo's XML reference,
+`deformable/flex`, `keyframe`.
 
 SOFA has a lattice as a scene of plain XML: points, masses and springs between two of them. Components as
 named from v24.06 on; before, `SpringForceField` was `StiffSpringForceField`, and constraints
@@ -101,7 +101,7 @@ def mujoco(of: Problem) -> str:
 
 
 def _geom(obstacle: Mapping[str, Any]) -> str:
-    """An obstacle as MuJoCo has it, its axis along z; a cylinder is FAR times as long as it is thick."""
+    """An obstacle in MuJoCo's terms, its axis along z; a cylinder is FAR times as long as it is thick."""
     along, radius = obstacle.get("normal", obstacle.get("axis")), obstacle.get("radius", 0.0)
     size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {FAR * radius!r}"}
     turned = "" if along is None else f' zaxis="{words(along)}"'
@@ -213,7 +213,7 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
 
 
 def _fixed(held: np.ndarray, axes: np.ndarray) -> str:
-    """A constraint for all points that are held along the same axes."""
+    """A constraint for all points that are held along equal axes."""
     indices = words(np.flatnonzero((held == axes).all(axis=1)))
     if axes.all():
         return f'    <FixedProjectiveConstraint indices="{indices}" />\n'

@@ -15,6 +15,7 @@ import sys
 import tempfile
 import uuid
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
@@ -28,13 +29,8 @@ from sheetbench.scenes import Scene
 if TYPE_CHECKING:
     from lumped import Calibration
 
-UNITS = {
-    "N": 'kg="1" m="1" s="-2"',
-    "m": 'm="1"',
-    "m/s2": 'm="1" s="-2"',
-    "J": 'kg="1" m="2" s="-2"',
-    "s": 's="1"',
-}
+UNITS = {"m": 'm="1"', "s": 's="1"', "m/s2": 'm="1" s="-2"'}
+UNITS |= {"N": 'kg="1" m="1" s="-2"', "J": 'kg="1" m="2" s="-2"'}
 SOURCES = ("sheet.c", "fmi3.c")
 BUILD = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiBuildDescription fmiVersion="3.0"><BuildConfiguration modelIdentifier="sheet">
@@ -61,14 +57,14 @@ def description(scene: Scene, of: Program) -> str:
     still = scene.gravity is not None and scene.gravity.history is None
     gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
 
-    def plain(name: str) -> str:
-        return re.sub(r"\W+", "_", name)
+    def of_each(names: Sequence[str], letter: str) -> list[str]:
+        return [re.sub(r"\W+", "_", name) + f".{letter}{axis}" for name in names for axis in "xyz"]
 
-    inputs = [(f"{plain(p)}.F{axis}", "N", 0.0) for p in of.points for axis in "xyz"]
+    inputs = [(name, "N", 0.0) for name in of_each(of.points, "F")]
     inputs += [(f"gravity.{axis}", "m/s2", value) for axis, value in zip("xyz", gravity, strict=True)]
-    inputs += [(f"{plain(name)}.factor", "", 1.0) for name in of.sources]
-    outputs = [(f"{plain(p)}.u{axis}", "m") for p in of.points for axis in "xyz"]
-    outputs += [(f"{plain(body)}.R{axis}", "N") for body in of.bodies for axis in "xyz"]
+    inputs += [(re.sub(r"\W+", "_", name) + ".factor", "", 1.0) for name in of.sources]
+    outputs = [(name, "m") for name in of_each(of.points, "u")]
+    outputs += [(name, "N") for name in of_each(of.bodies, "R")]
     outputs += [(f"energy.{name}", "J") for name in ("kinetic", "elastic", "potential")]
     rows = [("time", "s", 'causality="independent" variability="continuous"')]
     rows += [(name, unit, f'causality="input" start="{start!r}"') for name, unit, start in inputs]
@@ -89,7 +85,7 @@ def description(scene: Scene, of: Program) -> str:
 
 
 def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
-    """Return the place in a unit and the content of a library for this machine; None without a compiler."""
+    """Return a library for this machine, its place in a unit and its content, or None without a compiler."""
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     system = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib")}.get(sys.platform)
     if compiler is None or system is None:
@@ -105,7 +101,7 @@ def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
 
 
 def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[dict[str, Write], list[str]]:
-    """Return the file of `--for fmu`, and what is missing in it. Raises BadInput as `program`."""
+    """Return the file of `--for fmu`, and its missing parts. Raises BadInput as `program`."""
     of = program(scene, calibration, precision)
     sources = {name: of.texts[name] for name in ("sheet.h", "sheet.c")} | {"fmi3.c": script("fmi3.c")}
     content: dict[str, str | bytes] = {"modelDescription.xml": description(scene, of)}

@@ -1,7 +1,7 @@
 """A lattice as files for other codes: its springs, masses, supports and loads, and a program that reads them.
 
-The tables and arrays can be read by any program; `CODES` have a file of their own beside them. A README says
-in a page how force and energy follow from them.
+The tables and arrays can be read by any program; `CODES` have a file of their own beside them. A README of a
+page has the formulas of force and energy.
 """
 
 from __future__ import annotations
@@ -168,11 +168,12 @@ CODES = (SOFA, *READERS, *IN_MOTION)
 def lattice_files(
     scene: Scene, calibration: Calibration, code: str | None = None, precision: str = "double"
 ) -> tuple[dict[str, Write], list[str]]:
-    """Return the files of a scene's lattice with these springs, and what is not in them, in sentences.
+    """Return the files of a scene's lattice with these springs, and sentences about parts of the scene that
+    are left out.
 
-    code: of `CODES`, whose file comes beside them, or that has files of its own; precision: of those that
-    step it. Raises BadInput for lattices that files cannot say
-    (`lumped.describe`), and for what the code does not have.
+    code: of `CODES`, whose file comes beside them, or that has files of its own; precision: of programs in
+    motion. Raises BadInput for lattices that files cannot hold (`lumped.describe`), and for features that the
+    code lacks.
     """
     import lumped
 
@@ -207,10 +208,10 @@ def export(
     command: Sequence[str] = (),
     overwrite: bool = False,
 ) -> str:
-    """Write the lattice of a scene with these springs; a sentence that says where and what.
+    """Write the lattice of a scene with these springs; a sentence with the folder and its files.
 
     command: for the manifest. Raises BadInput for a folder that cannot be had or holds another scene's files,
-    unless `overwrite`, and for lattices that files cannot say.
+    unless `overwrite`, and for lattices that files cannot hold.
     """
     files, missing = lattice_files(scene, calibration)
     target = Folder(

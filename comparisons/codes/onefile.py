@@ -1,13 +1,13 @@
 """A lattice in motion as C99 without a library: sheet.h, sheet.c, and main.c that tests them by check.csv.
 
 The program is `scripts/sheet.c`, velocity Verlet as `lumped` has it, after tables that are written here:
-springs that are alike share a row of constants. What it has not is refused by name.
+springs that are alike share a row of constants; of rubber and of balls and bars it has `scripts/rubber.c` and
+`scripts/patch.c`. Chains and branches are refused.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from string import Template
@@ -23,7 +23,7 @@ from sheetbench.answers.report import Write
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, require_no_branches, tilt_axes
 from sheetbench.scenes.meaning.natural_state import sources_of
-from sheetbench.scenes.objects.obstacles import Plane
+from sheetbench.scenes.objects.obstacles import SLIP_SPEED, Plane
 from sheetbench.scenes.objects.sheet import Gravity
 from sheetbench.scenes.objects.supports import named
 from sheetbench.sources import version
@@ -32,33 +32,15 @@ if TYPE_CHECKING:
     from lumped import Calibration, State, System
 
 PRECISIONS: dict[str, tuple[str, Any]] = {"double": ("double", np.float64), "single": ("float", np.float32)}
-SAFETY, TOUCHING = 0.9, 0.85  # share of the measured limit that is advised, and with obstacles
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
-LARGEST = 1.0  # strain of a spring in a run that is one
+LARGEST = 1.0  # strain of a spring in a run that is one, but of rubber
 NONE = 255  # no second source
-
-
-def refuse(scene: Scene, system: System) -> None:
-    """Raise BadInput for what the program has not."""
-    spheres = [n for n, each in scene.named_obstacles().items() if not isinstance(each, Plane)]
-    payloads = any(payload.inertia is not None for payload in scene.masses)
-    for why in (
-        scene.actuators and f"actuators: {', '.join(scene.named_actuators())} bring equations of their own",
-        spheres and f"{spheres[0]}: contact over patches of a ball or a bar; a plane can be had",
-        payloads and "mass.inertia: neighbours share mass",
-        scene.air and "air: no drag",
-        system.assembly.any_strain and "rubber: its cells take logarithms",
-        not system.assembly.conservative and "springs of unequal stiffness along x, y and z: no energy",
-    ):
-        if why:
-            raise BadInput(f"--for c: {why}; not in the C program")
-    require_no_branches(scene.material, "the C program")
 
 
 @dataclass(frozen=True)
 class Program:
-    """texts: the files by name; points, bodies, sources: names of what it takes and answers; step: [s]."""
+    """texts: the files by name; points, bodies, sources: names of its inputs and outputs; step: [s]."""
 
     texts: dict[str, str]
     points: list[str]
@@ -71,75 +53,74 @@ def program(
     scene: Scene, calibration: Calibration, precision: str = "double", steps: int = CHECKED
 ) -> Program:
     """Return a scene's lattice in motion as a program in C, with the longest of some steps whose run of so
-    many of them succeeds. Raises BadInput for what it has not, and where none does."""
+    many of them succeeds. Raises BadInput for features that the program lacks, and if no run succeeds."""
     require_choice("--precision", precision, tuple(PRECISIONS))
     system, start = lumped.in_motion(scene, calibration)
     scene = system.problem.scene
-    refuse(scene, system)
-    limit = lumped.measured_limit(system, start.u)
-    step, check, message = (TOUCHING if system.items else SAFETY) * limit, "", ""
-    kind_of = PRECISIONS[precision]
-    steps = FEW if system.growing is not None else steps
+    if scene.actuators:
+        own = ", ".join(scene.named_actuators())
+        raise BadInput(f"--for c: actuators: {own} bring equations of their own; not in the C program")
+    system.assembly.require_energy()
+    require_no_branches(scene.material, "the C program")
+    limit = lumped.step_limit(system, start.u)
+    step, message, steps = limit.advised, "", FEW if system.growing is not None else steps
     for _ in range(TRIES):
-        step = float(kind_of[1](step))
-        check, message = checked(system, start, step, steps)
-        if check:
+        step = float(PRECISIONS[precision][1](step))
+        try:
+            check = checked(system, start, step, steps)
             break
-        step *= SHORTER
+        except lumped.StepFailed as error:
+            step, message = SHORTER * step, str(error)
     else:
         raise BadInput(f"--for c: the check of its steps ends early: {message}")
-    tables = Tables(kind_of[0])
+    tables = Tables(PRECISIONS[precision][0])
     lattice, points, supports = system.assembly.lattice, scene.probe_points(), named(scene.supports)
-    probes, obstacles = list(scene.probes), list(scene.named_obstacles())
+    obstacles = list(scene.named_obstacles())
     bodies, sources = [*supports, *obstacles], [source.name for source in sources_of(scene)]
-    n, columns = lattice.mass_count, lattice.positions
+    n = lattice.mass_count
     tables.text.append(f"typedef {smallest(n, 'unsigned short')} entry;")
-    tables.add("SHEET_REST", columns, storage="")
+    tables.add("SHEET_REST", lattice.positions, storage="")
     add_springs(tables, system)
-    add_masses(tables, system, supports)
+    add_masses(tables, system)
     for name, order in (("PROBE", 3), ("NEAR", 1)):
         tables.sparse(name, lumped.MidSurface(lattice, points, order=order).shared(np.eye(len(points)), n).T)
-    keys = add_loads(tables, system, calibration)
-    add_contact(tables, system, list(bodies))
-    motions = [one.motion for one in (*scene.supports, *scene.obstacles)]
-    tables.define(MOVING=any(one is not None for one in motions))
-    if any(one is not None for one in motions):
-        tables.add("MOTION", [tables.course(one, "displacement") for one in motions], "int")
+    add_loads(tables, system, calibration)
+    touching, patches = add_contact(tables, system)
+    movable = (*scene.supports, *scene.obstacles)
+    tables.add("MOTION", [tables.course(one.motion, "displacement") for one in movable], "int")
     grown = add_growth(tables, system)
-    tables.define(COURSES=len(tables.knots) > 0)
-    if tables.knots:
-        tables.add("KNOT", tables.knots)
-        tables.add("FIRST", tables.firsts, "int")
-    flat = not start.u.any()
-    if not flat:
-        tables.add("START", start.u)
-    gravity = (0.0, 0.0, 0.0)
-    if scene.gravity is not None and scene.gravity.history is None:
-        gravity = scene.gravity.acceleration
-    every = {"POINT": probes, "SUPPORT": supports, "OBSTACLE": obstacles, "SOURCE": sources}
-    numbers = {"POINTS": probes, "SUPPORTS": supports, "BODIES": bodies, "SOURCES": sources}
+    tables.add("KNOT", np.reshape(tables.knots, (-1, 4)))
+    tables.add("FIRST", [*tables.firsts, 0], "int")
+    tables.add("START", start.u if start.u.any() else start.u[:1])
+    tables.define(STARTS=n if start.u.any() else 1)
+    still = scene.gravity is not None and scene.gravity.history is None
+    gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
+    every = {"POINT": list(scene.probes), "SUPPORT": list(supports), "OBSTACLE": obstacles, "SOURCE": sources}
+    numbers = {"POINTS": every["POINT"], "SUPPORTS": supports, "BODIES": bodies, "SOURCES": sources}
     names = [f"#define SHEET_{name} {len(of)}" for name, of in numbers.items()]
     for group, of in every.items():
         first = len(supports) if group == "OBSTACLE" else 0
-        own = identifiers(f"SHEET_{group}", (re.sub("^(support|obstacle) ", "", each) for each in of))
-        if own:
-            names.append("enum { " + ", ".join(f"{name} = {first + k}" for k, name in enumerate(own)) + " };")
+        plain = (re.sub("^(support|obstacle) ", "", each) for each in of)
+        listed = [f"{name} = {first + k}" for k, name in enumerate(identifiers(f"SHEET_{group}", plain))]
+        names += ["enum { " + ", ".join(listed) + " };"] if listed else []
     nx, ny, layers = lattice.grid
-    title = re.sub(r"[^ -~]|\*/", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}")
-    given: dict[str, Any] = keys | dict(
-        title=title, version=version(), real=tables.real, names="\n".join(names), step=tables.number(step),
-        largest=f"{limit:.4g}", safety=f"{step / limit:.3g}", masses=n, layers=layers, nx=nx, ny=ny,
-        gravity=tables.values(gravity, False), start="0" if flat else "START[i][e]",
-        room=f"  sheet_real grown[{grown}]; /* of links and cells */\n" if sources else "",
-        tables="\n".join(tables.text),
+    rubber = system.assembly.any_strain
+    given: dict[str, Any] = dict(
+        title=re.sub(r"[^ -~]|\*/", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
+        version=version(), real=tables.real, names="\n".join(names), step=tables.number(step), steps=steps,
+        largest=f"{limit.step:.4g}", safety=f"{step / limit.step:.3g}", masses=n, layers=layers, nx=nx, ny=ny,
+        gravity=tables.values(gravity, False), slip=SLIP_SPEED**2, libm="`sqrt`" + rubber * ", `exp`, `log`",
+        dragged=n if scene.air else 1, touching=max(1, touching), grown=max(1, grown),
+        rubber=f"#define RUBBER {int(rubber)}\n" + rubber * script("rubber.c"),
+        patch=(patches > 0) * script("patch.c"), tables="\n".join(tables.text),
+        points=", ".join(scene.probes) or "none", bodies=", ".join(bodies) or "none",
+        sources=", ".join(sources) or "none",
     )  # fmt: skip
     texts = {name: Template(script(name)).substitute(given) for name in ("sheet.h", "sheet.c")}
+    given["size"] = f"{len(texts['sheet.c']) / 1e3:.0f}"
+    texts["README.md"] = Template(script("sheet.md")).substitute(given)
     texts |= {"main.c": script("main.c"), "check.csv": check}
-    texts["README.md"] = Template(script("sheet.md")).substitute(
-        given, size=f"{len(texts['sheet.c']) / 1e3:.0f}", points=", ".join(probes), bodies=", ".join(bodies),
-        sources=", ".join(sources) or "none, as the scene has no natural state",
-    )  # fmt: skip
-    return Program(texts, probes, list(bodies), sources, step)
+    return Program(texts, every["POINT"], bodies, sources, step)
 
 
 def add_springs(tables: Tables, system: System) -> None:
@@ -153,119 +134,140 @@ def add_springs(tables: Tables, system: System) -> None:
         rows[0][:, 3] = np.linalg.norm(links.offset, axis=1)
     if system.scene.dampers is not None:
         extra: Any = system.damping.dampers[0]
-        rows.append(
-            np.column_stack([extra.offset, extra.rest_length, 0.0 * extra.stiffness, extra.stiffness])
-        )
+        none = 0.0 * extra.stiffness
+        rows.append(np.column_stack([extra.offset, extra.rest_length, none, extra.stiffness]))
         nodes.append(extra.nodes)
-    families = [each for each in (layers, middle, faces) if len(each)]
-    beside = ((0, 0), (3, 3))
-    constants = [np.pad(one.constants[:, 3:4], beside) if one is faces else one.constants for one in families]
-    cells = [
-        np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(q), tau)])
-        for family, q in zip(families, constants, strict=True)
-    ]
+    cells = [np.empty((0, 23))]
+    for family in (layers, middle, faces):
+        k, is_rubber = family.constants, family.constants.shape[1] == 13
+        q = k[:, 3:4] * np.eye(7)[3] if family is faces else k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
+        others = k[:, 4:13] if is_rubber else np.zeros((len(k), 9))
+        cells.append(np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(k), tau), others]))
     single, joined = len(layers), len(layers) + len(middle)
     tables.define(LINKS=sum(map(len, nodes)), CELLS=joined + len(faces), SINGLE=single, JOINED=joined)
     tables.define(DAMPED=tau > 0.0 or len(nodes) > 1)
     tables.add("LINK", np.concatenate(nodes), "entry")
     tables.alike("LINK", np.concatenate(rows))
-    tables.add(
-        "CELL", np.concatenate([np.empty(0, int), *(each.nodes.ravel() for each in families)]), "entry"
-    )
-    tables.alike("CELL", np.concatenate([np.empty((0, 14)), *cells]) if cells else np.zeros((1, 14)))
+    tables.add("CELL", np.concatenate([each.nodes.ravel() for each in (layers, middle, faces)]), "entry")
+    tables.alike("CELL", np.concatenate(cells)[:, : 23 if system.assembly.any_strain else 14])
 
 
-def add_masses(tables: Tables, system: System, supports: Mapping[str, Any]) -> None:
-    """Add masses, what damps them, what of them supports hold, and how the supports' forces add up."""
+def add_masses(tables: Tables, system: System) -> None:
+    """Add matrices of columns of masses along each axis, from forces to free accelerations and from
+    velocities to momenta; masses' damping, the supports that move them, and sums of the supports' forces."""
     import scipy.sparse as sp
 
-    constraints, mass, rate = system.problem.constraints, system.lattice_mass, system.damping.rate
-    held, means = np.zeros((len(mass), 3), int), set()
+    constraints, (p, n) = (
+        system.problem.constraints,
+        (system.assembly.lattice.grid[2], len(system.lattice_mass)),
+    )
+    both = []
+    for act in (system.accelerate, system.momentum):
+        along = [act(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
+        both.append(np.stack(along, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
+    tables.alike("COLUMN", np.concatenate(both, axis=1))
+    tables.define(RATED=bool(system.damping.rate.any()))
+    tables.add("RATE", system.damping.rate)
+    owner, supports = np.zeros((n, 3), int), named(system.scene.supports)
     for moving in (False, True):  # a corner goes with the support that moves
-        for number, (name, support) in enumerate(supports.items()):
+        for number, (name, support) in enumerate(supports.items(), start=1):
             masses, axes = constraints.holders[name]
             for axis in axes if (support.motion is not None) is moving else ():
                 rows = masses.ravel()
-                fixed = constraints.fixed[rows, axis]
-                own = ~fixed | (axis in tilt_axes(support)) if moving else held[rows, axis] == 0
-                held[rows[own], axis] = 2 * number + 2 - fixed[own]
-                first = masses[:, 0]
-                means |= {(i, axis) for i in first[~constraints.fixed[first, axis]].tolist()}
-    tables.add("MASS", mass)
-    tables.add("INVERSE", np.divide(1.0, mass, out=np.zeros_like(mass), where=mass > 0.0))
-    tables.define(RATED=bool(rate.any()), MEANS=len(means))
-    if rate.any():
-        tables.add("RATE", rate)
-    tables.add("HELD", held, "unsigned char")
-    if means:
-        tables.add("MEAN", sorted(means), "")
+                firm = ~constraints.fixed[rows, axis] | (axis in tilt_axes(support))
+                own = firm if moving else owner[rows, axis] == 0
+                owner[rows[own], axis] = number
+    tables.add("OWNER", owner, "")
     rows, columns, values = constraints.summed
-    tables.sparse("SUMMED", sp.csr_array((values, columns, rows), shape=(len(rows) - 1, held.size)))
+    rows = np.append(rows, np.full(3 * len(system.items), rows[-1]))  # none of obstacles
+    tables.sparse("SUMMED", sp.csr_array((values, columns, rows), shape=(len(rows) - 1, owner.size)))
 
 
-def add_loads(tables: Tables, system: System, calibration: Calibration) -> dict[str, str]:
-    """Add weight, dead loads, pressures and couples of edges; return how the program scales each."""
-    scene, lattice = system.scene, system.assembly.lattice
+def add_loads(tables: Tables, system: System, calibration: Calibration) -> None:
+    """Add weight, dead loads, pressures and couples of edges, and the air's drag."""
+    scene, lattice, drag = system.scene, system.assembly.lattice, system.damping.drag
     down = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -1.0)), loads=())
     tables.add("WEIGHT", -lumped.build_problem(down, calibration).loads.parts[0].dead[:, 2])
     if scene.gravity is not None and scene.gravity.history is None:
         scene = scene.replace(gravity=None)
     parts = lumped.build_problem(scene, calibration).loads.parts
     tables_of = [one.history for one in (scene.gravity, *scene.loads) if one is not None and one.history]
-    histories = [None, *dict.fromkeys(tables_of)]
-    courses = [tables.course(one, "factor") for one in histories]
-    tables.define(HISTORIES=len(histories) if len(histories) > 1 else 0)
-    if len(histories) > 1:
-        tables.add("HISTORY", courses, "int")
+    courses = [tables.course(one, "factor") for one in (None, *dict.fromkeys(tables_of))]
+    tables.define(HISTORIES=len(courses))
+    tables.add("HISTORY", courses, "int")
     dead = [np.argwhere(part.dead) for part in parts]
     pressed = [np.flatnonzero(part.pressure) for part in parts]
+    corners = lattice.mid_cells[:, :, 0]
     every = {
         "LOAD": (dead, [part.dead[tuple(at.T)] for part, at in zip(parts, dead, strict=True)]),
         "PRESS": (
-            [lattice.mid_cells[c, :, 0] for c in pressed],
+            [corners[c] for c in pressed],
             [p.pressure[c] for p, c in zip(parts, pressed, strict=True)],
         ),
         "COUPLE": ([part.columns[:, :, 0] for part in parts], [part.moments for part in parts]),
     }
-    scaled = {}
     for name, (places, values) in every.items():
         owners = np.repeat(np.arange(len(parts)), [len(each) for each in values])
         tables.define(**{{"LOAD": "LOADS", "PRESS": "PRESSES", "COUPLE": "COUPLES"}[name]: len(owners)})
-        own = "m" if name != "LOAD" else "n"
-        scaled[f"of_{name.lower()}"] = f" * factor[{name}_PART[{own}]]" if len(histories) > 1 else ""
-        if len(owners):
-            tables.add(f"{name}_AT", np.concatenate(places), "entry")
-            tables.add(name, np.concatenate(values))
-            if len(histories) > 1:
-                tables.add(f"{name}_PART", owners, "unsigned char")
-    still = "(LOAD_PART[n] ? 0 : LOAD[n])" if len(histories) > 1 else "LOAD[n]"
-    return {**scaled, "still": still}
+        tables.add(f"{name}_AT", np.concatenate(places), "entry")
+        tables.add(name, np.concatenate(values))
+        tables.add(f"{name}_PART", owners, "unsigned char")
+    tables.define(STILL=int(sum(len(each) for each in dead[:1])))
+    cells = corners if scene.air else corners[:0]
+    tables.define(DRAG_CELLS=len(cells), DRAGGED=lattice.mass_count if scene.air else 0)
+    tables.add("DRAG_AT", cells, "entry")
+    tables.add("DRAG_SHARE", drag.shares[: len(cells)])
+    tables.add("DRAG_WEIGHT", drag.weights if scene.air else [])
+    tables.text.append(f"static const real DRAG = {tables.number(drag.coefficient)};")
 
 
-def add_contact(tables: Tables, system: System, bodies: Sequence[str]) -> None:
-    """Add planes and the columns of masses that may touch them."""
-    found: dict[tuple[int, int, float, float], float] = {}
-    for contact in system.problem.contacts:
-        body, own = bodies.index(contact.name), contact.weights > 0.0
-        k, over = contact.share * contact.full * contact.area, contact.rounded * contact.thickness
-        for c, p in np.argwhere(k > 0.0):
-            key = body, contact.nodes[c][own[p]].min(), contact.offset[c, p], over[c, p]
-            found[key] = found.get(key, 0.0) + k[c, p]
-    tables.define(PRESSABLE=len(found))
-    if found:
-        planes = system.scene.obstacles
-        tables.add("TOUCHED", [key[0] for key in found], "")
-        tables.add("TOUCHING", [key[1] for key in found], "entry")
-        tables.add("TOUCH", [(k, key[2], key[3]) for key, k in found.items()])
-        tables.add("PLANE", [[*o.position, *o.direction, o.contact_damping, o.friction] for o in planes])
+def add_contact(tables: Tables, system: System) -> tuple[int, int]:
+    """Add obstacles and the points of the mid-surface that may touch them, on planes columns of masses, else
+    nine of each part of a cell. Return the numbers of points and parts."""
+    bodies, groups = [np.empty(0, int)], [np.empty((0, 9), int)]
+    columns, rows = [np.empty((0, 4), int)], [np.empty((0, 7))]
+    for number, contact in enumerate(system.problem.contacts):
+        cells, at_points, p = len(contact.nodes), len(contact.basis), system.assembly.lattice.grid[2]
+        area = (
+            contact.area
+            if contact.at_corners
+            else contact.area.sum(axis=1)[:, None] / (4 * len(contact.groups))
+        )
+        k, over = contact.share * contact.full * area, contact.rounded * contact.thickness
+        offset, body = contact.offset, contact.obstacle
+        if isinstance(body, Plane):  # from where the points rest
+            rest = contact.weights @ system.assembly.lattice.positions[contact.nodes]
+            offset = offset - (rest - body.position) @ body.direction
+        shares = np.tile(contact.weights.reshape(-1, 4, p).sum(axis=2), (cells, 1))
+        if not contact.at_corners:
+            first = sum(len(each) for each in bodies) + at_points * np.arange(cells)
+            groups.append((first[:, None, None] + contact.groups).reshape(-1, 9))
+        bodies.append(np.full(len(shares), number))
+        columns.append(np.repeat(contact.nodes[:, ::p], at_points, axis=0))
+        rows.append(np.column_stack([shares, *(np.ravel(each) for each in (offset, k, over))]))
+    points, parts = (sum(len(each) for each in of) for of in (bodies, groups))
+    tables.define(POINTS=points, PATCHES=parts)
+    tables.add("POINT_BODY", np.concatenate(bodies), "")
+    tables.add("POINT_AT", np.concatenate(columns), "entry")
+    tables.alike("POINT", np.concatenate(rows))
+    of = [
+        [*o.position, *o.direction, 0.0 if isinstance(o, Plane) else o.radius, o.contact_damping, o.friction]
+        for o in system.scene.obstacles
+    ]
+    tables.add("OBSTACLE", np.reshape(of, (-1, 9)))
+    if parts:
+        tables.add("PATCH", np.concatenate(groups), "unsigned")
+        (x, of_x), (y, of_y) = (np.polynomial.legendre.leggauss(count) for count in (4, 16))
+        tables.add("ALONG", np.stack([x, of_x], axis=1))
+        tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * of_y], axis=1))
+    return points, parts
 
 
 def add_growth(tables: Tables, system: System) -> int:
-    """Add how what springs measure without stress depends on the factors of natural states: a quadratic form,
-    found from its values. Return how many measures there are, 0 of a sheet that is flat at rest."""
-    state = system.assembly.natural
-    if state is None:
-        return 0
+    """Add the springs' measures without stress as a quadratic form of the factors of natural states, found
+    from its values. Return the number of measures, 0 of a sheet that is flat at rest."""
+    state: Any = system.assembly.natural
+    entries, size = [], 0
     extra = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
 
     def measured(*sources: tuple[int, float]) -> np.ndarray:
@@ -276,36 +278,38 @@ def add_growth(tables: Tables, system: System) -> int:
         own = [np.zeros((3, len(one))) if one.natural is None else one.natural[1:] for one in cells]
         return np.concatenate([links.natural, np.zeros(extra), *(each.T.ravel() for each in own)])
 
-    count, found = len(state.factors()), []
-    one = [measured((s, 1.0)) for s in range(count)]
-    less = [measured((s, -1.0)) for s in range(count)]
-    for s in range(count):
-        found.append((s, NONE, 0.5 * (one[s] - less[s])))
-        found.append((s, s, 0.5 * (one[s] + less[s])))
-        found += [(s, t, measured((s, 1.0), (t, 1.0)) - one[s] - one[t]) for t in range(s)]
-    most = 1e-15 * max(float(np.abs(values).max()) for *_, values in found)
-    entries = [
-        (at, s, t, values[at]) for s, t, values in found for at in np.flatnonzero(np.abs(values) > most)
-    ]
-    tables.define(GROWTHS=len(entries))
+    if state is not None:
+        count, found = len(state.factors()), []
+        one, less = ([measured((s, sign)) for s in range(count)] for sign in (1.0, -1.0))
+        for s in range(count):
+            found += [(s, NONE, 0.5 * (one[s] - less[s])), (s, s, 0.5 * (one[s] + less[s]))]
+            found += [(s, t, measured((s, 1.0), (t, 1.0)) - one[s] - one[t]) for t in range(s)]
+        size, most = len(one[0]), 1e-15 * max(float(np.abs(values).max()) for *_, values in found)
+        entries = [(n, s, t, by[n]) for s, t, by in found for n in np.flatnonzero(np.abs(by) > most)]
+    tables.define(GROWN=size, GROWTHS=len(entries))
     tables.add("GROWTH_AT", [at for at, *_ in entries], "unsigned")
-    tables.add("GROWTH_OF", [(s, t) for _, s, t, _ in entries], "unsigned char")
+    tables.add("GROWTH_OF", np.reshape([(s, t) for _, s, t, _ in entries], (-1, 2)), "unsigned char")
     tables.add("GROWTH", [value for *_, value in entries])
-    histories = [source.of.history for source in sources_of(system.scene)]
-    if any(histories):
-        tables.add("SOURCE_COURSE", [tables.course(one, "factor") for one in histories], "int")
-    elif tables.knots:
-        tables.add("SOURCE_COURSE", [-1] * count, "int")
-    return len(one[0])
+    courses = [tables.course(source.of.history, "factor") for source in sources_of(system.scene)]
+    tables.add("SOURCE_COURSE", courses, "int")
+    return size
 
 
-def checked(system: System, start: State, step: float, steps: int) -> tuple[str, str]:
+def checked(system: System, start: State, step: float, steps: int) -> str:
     """Return the text of check.csv, probes [m], forces of supports and obstacles [N] and energies [J] in so
-    many of `lumped`'s own steps, "" where they fail, and why."""
+    many of `lumped`'s own steps. Raises StepFailed."""
     scene, every = system.scene, max(1, steps // MOMENTS)
     probes = lumped.MidSurface(system.assembly.lattice, scene.probe_points())
+    largest = np.inf if system.assembly.any_strain else LARGEST
     rows, state, integrator = [], start, lumped.INTEGRATORS["verlet"](system, step)
-    while True:
+    for left in (0, *[every] * (steps // every)):
+        while left:
+            advance = integrator.march(state, step, left)
+            state, left = advance.state, left - advance.steps
+        if not system.assembly.links.largest_strain(state.u) < largest:
+            raise lumped.StepFailed(
+                f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times as long as at rest"
+            )
         placed = system.prescribed.support_acceleration(state.time)
         energies, exerted = system.balance(replace(state, a=state.a + placed))
         forces = [*system.problem.constraints.reactions(exerted)[0].values()]
@@ -313,21 +317,10 @@ def checked(system: System, start: State, step: float, steps: int) -> tuple[str,
         forces += [item.exerted(at, state.v).sum(axis=0) for item in system.items]
         row: list[Any] = [[state.time], probes.of(state.u).ravel(), *forces, [*energies.values()]]
         rows.append(np.concatenate(row).tolist())
-        if len(rows) > steps // every:
-            break
-        left = every
-        try:
-            while left:
-                advance = integrator.march(state, step, left)
-                state, left = advance.state, left - advance.steps
-        except lumped.StepFailed as error:
-            return "", str(error)
-        if not system.assembly.links.largest_strain(state.u) < LARGEST:
-            return "", f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times as long as at rest"
     bodies = [*named(scene.supports), *scene.named_obstacles()]
     names = [f"{name}_{axis}" for name in (*scene.probes, *bodies) for axis in "xyz"]
     header = [re.sub("[ ,\n]", "_", name) for name in ("time", *names, *energies)]
-    return "\n".join([",".join(header), *(",".join(map(repr, row)) for row in rows)]) + "\n", ""
+    return "\n".join([",".join(header), *(",".join(map(repr, row)) for row in rows)]) + "\n"
 
 
 def c_files(scene: Scene, calibration: Calibration, precision: str) -> dict[str, Write]:

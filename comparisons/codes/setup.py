@@ -57,9 +57,9 @@ NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
 
 @dataclass(frozen=True, repr=False)
 class CodeSetup(CellInScene):
-    """A scene for a code. best: whether the coefficients are those that are best in the scene; given:
-    parameters of the code in place of those that the coefficients make; named: whether the user named the
-    scene, without which there is a sheet alone."""
+    """A scene for a code. best: whether the coefficients are the best in the scene; given: parameters of the
+    code in place of the ones made of coefficients; named: whether the user named the scene, without which
+    there is a sheet alone."""
 
     code: Code
     squares: int
@@ -148,9 +148,8 @@ class CodeSetup(CellInScene):
     def _too_coarse(self) -> str:
         """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
 
-        A spring from layer to layer rises by the height H over a side l of a square. Where it rises by s
-        still its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts
-        instead.
+        A spring from layer to layer rises by the height H over a side l of a square. At a remaining rise s
+        its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts instead.
         """
         supports = [support for support in self.scene.supports if support.edge]
         if self.code.mesh != LAYERED or len(supports) < 2:
@@ -197,14 +196,15 @@ def setup(
     """Return a scene in a code's words.
 
     best: whether hinges are those best in the scene; named: whether the user named the scene: without, no
-    number is of it. Where the scene's sheet has no stable equilibrium the answer has no error and says so.
-    mesh: another than the code's own choice; coefficients:
-    taken in place of those found; given: the code's own parameters, likewise. Raises BadInput for an unknown
-    code.
+    number is of it. The answer has no error, and a note, for a scene whose sheet has no stable equilibrium.
+    mesh: another than the code's own choice; coefficients: taken in place of those found; given: the code's
+    own parameters, in place of computed ones. Raises BadInput for an unknown code.
     """
     scene = scene_of(scene)
     require_choice("--for", code, WRITERS)
-    require_uniform(scene, f"--for {code}", "its numbers are of one isotropic material and thickness")
+    fabric = "; of Newton's solvers Style3D takes A11, A22 and A66 as tri_aniso_ke (docs/cells.md)"
+    why = f"its numbers are of one isotropic material and thickness{fabric * (code == 'newton')}"
+    require_uniform(scene, f"--for {code}", why)
     require_flat_at_rest(scene, f"--for {code}")
     row = CODES[code]
     if squares < 2:

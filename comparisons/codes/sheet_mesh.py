@@ -75,7 +75,7 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     """Return the mesh of a scene's sheet, `squares` along its shorter side.
 
     pattern: ONE or ALTERNATE; beyond_share: how far beyond an edge its second row is, over a square's side.
-    Raises BadInput for what these codes do not have: supports but points at vertices and clamped and hinged
+    Raises BadInput for features that these codes lack: supports but points at vertices and clamped and hinged
     edges that stay, loads but weight and forces at points and along edges.
     """
     if why := refusal(scene):
@@ -147,8 +147,8 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
 def _held_in(
     shape: Shape, name: str, at: tuple[np.ndarray, np.ndarray], spacing: np.ndarray, counts: tuple[int, int]
 ) -> np.ndarray:
-    """Return which vertices a point or a rectangle holds; at: their numbers along x and y. Raises BadInput
-    where the sides of it do not lie on lines of vertices."""
+    """Return a mask of the vertices that a point or a rectangle holds; at: their numbers along x and y.
+    Raises BadInput where the sides of it do not lie on lines of vertices."""
     assert shape.rectangle is not None  # `refusal` has other shapes
     held = np.ones(at[0].shape, dtype=bool)
     for axis, (low, high) in enumerate((shape.rectangle.x, shape.rectangle.y)):

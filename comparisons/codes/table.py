@@ -1,7 +1,7 @@
 """Parameters of other people's codes from a cell's coefficients, in each code's own words and units.
 
-Each code with its elements, what each parameter is there, the line of its source that says so, what its sheet
-cannot be and which mesh to take. Only laws at small strain count. C(λh, μh, hinge) are our coefficients
+Each code with its elements, the formula of each parameter, the line of its source that defines it, the limits
+of its sheet and the mesh to take. Only laws at small strain count. C(λh, μh, hinge) are our coefficients
 [N/m, N/m, by the hinge's weight], h the thickness [m], ρ the density [kg/m³].
 """
 
@@ -26,10 +26,10 @@ class Key:
 
 @dataclass(frozen=True)
 class Code:
-    """A code. hinge: the weight of its hinges; dampers: what a material's one damper is there, none where the
-    code has nothing in proportion to the stiffness; elements: "triangles", or "springs" alone; mesh: the one
-    to take. Of those that files are written for, cannot: what its sheet cannot be; source: repository, file
-    and what stands there; licence."""
+    """A code. hinge: the weight of its hinges; dampers: its form of a material's one damper, none for a code
+    without damping in proportion to the stiffness; elements: "triangles", or "springs" alone; mesh: the one
+    to take. Filled in for codes with files: cannot, the limits of its sheet; source, a repository, a file and
+    a quotation; licence."""
 
     name: str
     title: str

@@ -1,9 +1,9 @@
 """A lattice as CSV and as named arrays, SI units, all digits, numbers from 0.
 
-Of CSV there is one table a file, the names of the columns in the first line; masses that a corner, or what is
-held, is the mean of are joined by "+". The arrays are those of `lattice.npz` and `lattice.mat`: a corner of a
-cell is the mean of as many masses as the lattice has layers; where it is one mass alone, that stands there as
-often. So do the masses of a hold.
+A CSV file holds one table, the names of the columns in the first line; masses whose mean is a corner, or is
+held, are joined by "+". The arrays are in `lattice.npz` and `lattice.mat`: a corner of a cell is the mean of
+as many masses as the lattice has layers; where it is one mass alone, that stands there as often. So do the
+masses of a hold.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""The sheet in motion, at true scale: frames with their time and a colour bar, as a GIF of a README's size,
-480 pixels wide and below a megabyte."""
+"""Animation of sheets at true scale: frames with time and colour bar, as a GIF of 480 pixels below 1 MB."""
 
 from __future__ import annotations
 
@@ -24,17 +23,17 @@ from sheetbench.answers.style import STYLE, plain
 from sheetbench.files import whole
 from sheetbench.scenes import Scene
 
-WIDTH, PER_INCH = 4.0, 160  # inches, pixels an inch
+WIDTH, PER_INCH = 4.0, 160  # inches, pixels per inch
 COLOURS, PIXELS = 64, 480  # of a GIF: its palette, its width
 SURFACE_LINES = 8  # cells drawn on a reference's sheet along its shorter side
-PER_SECOND, MOST = 8, 34  # frames a second, and at most
+PER_SECOND, MOST = 8, 34  # frames per second, largest number of frames
 
 
 def animate(scene: Scene, histories: Sequence[History], paths: Sequence[Path]) -> None:
-    """Write the frames of runs, several side by side in one view under their labels, to every path, as
-    GIF. Raises NoPicture without off-screen drawing."""
-    if impossible := offscreen.why_not():
-        raise NoPicture(impossible)
+    """Write the frames of runs as GIF to every path, several runs side by side with their labels. Raises
+    NoPicture without off-screen drawing."""
+    if reason := offscreen.why_not():
+        raise NoPicture(reason)
     labels = [history.label for history in histories] if len(histories) > 1 else [""]
     images = _images(scene, [frames(history) for history in histories], labels)
     for path in paths:
@@ -45,16 +44,16 @@ def animate(scene: Scene, histories: Sequence[History], paths: Sequence[Path]) -
 def _images(
     scene: Scene, runs: Sequence[Sequence[tuple[float, Frame]]], labels: Sequence[str]
 ) -> list[Image.Image]:
-    """A page a moment, of frames of one run or of several at the same times; labels: what each is called."""
+    """Return an image per time from the frames of one or several runs; labels: of the runs."""
     moments = list(zip(*runs, strict=False))
     moments = moments[:: -(-len(moments) // MOST)]
     plan = plan_mesh(scene, 16).points[:, :2]
     flat = np.column_stack([plan, np.zeros(len(plan))])
-    every = [frame for moment in moments for _, frame in moment]
-    sheets = [flat + frame.displacement(plan) for frame in every]
-    seen = np.vstack([flat, *sheets, *(rest + u for frame in every for rest, u in frame.axes)])
+    all_frames = [frame for moment in moments for _, frame in moment]
+    sheets = [flat + frame.displacement(plan) for frame in all_frames]
+    seen = np.vstack([flat, *sheets, *(rest + u for frame in all_frames for rest, u in frame.axes)])
     heights = [1e3 * (sheet - flat)[:, 2] for sheet in sheets]
-    heights += [1e3 * frame.mesh.point_data["displacement"][:, 2] for frame in every]
+    heights += [1e3 * frame.mesh.point_data["displacement"][:, 2] for frame in all_frames]
     limits = (min(float(h.min()) for h in heights), max(float(h.max()) for h in heights) + 1e-9)
     speed = (moments[-1][0][0] - moments[0][0][0]) * PER_SECOND / max(len(moments) - 1, 1)
     images = []
@@ -66,16 +65,16 @@ def _images(
 
 
 def _view(
-    scene: Scene, time: float, frame: Frame, limits: tuple[float, float], seen: np.ndarray, beside: int
+    scene: Scene, time: float, frame: Frame, limits: tuple[float, float], seen: np.ndarray, columns: int
 ) -> np.ndarray:
-    """The pixels of a sheet and of what it touches, of so many beside each other."""
-    held: Any = frame
-    stage = Stage(scene, held, 1.0, pixels=round(1.5 * WIDTH * PER_INCH / beside))
+    """Return the pixels of a sheet and its obstacles; columns: number of views side by side."""
+    solution: Any = frame
+    stage = Stage(scene, solution, 1.0, pixels=round(1.5 * WIDTH * PER_INCH / columns))
     if frame.of_lattice:
         stage.lattice(frame.mesh, 1e3 * frame.mesh.point_data["displacement"][:, 2], limits, HEIGHTS)
     else:
         plan = plan_mesh(scene).points[:, :2]
-        stage.surface(held, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
+        stage.surface(solution, 1e3 * frame.displacement(plan)[:, 2], limits, HEIGHTS, SURFACE_LINES)
     for rest, u in frame.axes:
         stage.chain(rest + u)
     return stage.take(np.vstack([seen, stage.obstacles(time)]), np.empty((0, 3)))[0]
@@ -84,7 +83,7 @@ def _view(
 def _page(
     scene: Scene, views: Sequence[tuple[np.ndarray, str]], caption: str, limits: tuple[float, float]
 ) -> Image.Image:
-    """Views with their labels, under the title and the time, over the colour bar."""
+    """Return an image of views with their labels, title, caption and colour bar."""
     title = plain(scene.title or scene.name, width=72)
     top, bottom = 0.19 + 0.15 * len(title.splitlines()), 0.42
     pixels = views[0][0]
@@ -111,12 +110,12 @@ def _page(
 def _write_gif(path: Path, images: list[Image.Image]) -> None:
     size = (PIXELS, round(PIXELS * images[0].height / images[0].width))
     images = [image.resize(size, Image.Resampling.LANCZOS) for image in images]
-    # one palette for all and no dither: what stands still stays the same, and the file small
-    some = images[::8]
-    every = Image.new("RGB", (some[0].width, sum(image.height for image in some)))
-    for number, image in enumerate(some):
-        every.paste(image, (0, number * image.height))
-    palette = every.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    # One palette and no dither: still parts have equal pixels in all frames, so the file stays small.
+    samples = images[::8]
+    column = Image.new("RGB", (samples[0].width, sum(image.height for image in samples)))
+    for number, image in enumerate(samples):
+        column.paste(image, (0, number * image.height))
+    palette = column.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE)
     reduced = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     reduced[0].save(
         path,

@@ -1,4 +1,4 @@
-"""The answer of `sheetbench compare`: document, tables, pictures and files of a comparison."""
+"""The answer of `sheetbench compare`: document, tables, figures and files of a comparison."""
 
 from __future__ import annotations
 
@@ -7,14 +7,17 @@ from dataclasses import asdict, dataclass
 from functools import cached_property, partial
 from math import hypot
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from comparisons.comparison.errors import Compared
+import numpy as np
+
+from comparisons.comparison.errors import ROUND_OFF, Compared
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.pictures.array_files import write_mesh
 from comparisons.pictures.plan import plan_mesh
 from comparisons.sweep.differences import far, unseen
+from comparisons.sweep.model_error import few_percent
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture, Write
 from sheetbench.answers.solution import Solution, Status
@@ -29,42 +32,66 @@ from sheetbench.answers.table import (
     Table,
 )
 from sheetbench.scenes import Scene
-from sheetbench.scenes.language.summary import few
+from sheetbench.scenes.meaning.parameters import parameter
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import named
 
-SLOW, AT_REST = 2.0, 10.0  # 1/s, a rate where there is none; of 1/rate, after which motion has died down
+DEFAULT_RATE, AT_REST = 2.0, 10.0  # 1/s, damping rate for a scene without one; end of motion, of 1/rate
 BUCKLED = (
     "branch buckled: a model whose equilibrium under the whole load is unstable leaves it along its lowest "
-    "mode; what is shown is the stable equilibrium that it comes to, one of several."
+    "mode; the stable equilibrium shown is one of several."
 )
-MOVED = (
-    *("probe", MILLIMETRES(".4g", "x", detail=True), MILLIMETRES(".4g", "y", detail=True), "model"),
-    *(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz"),
-    *(PERCENT("z.2f", "difference"), PERCENT(".2g", "±")),
-)
-COSTS = (
-    *("model", Column("what it is", prose=True, detail=True), NUMBER("d", "unknowns")),
-    *(NUMBER("d", "factorisations", detail=True), SECONDS("z.2f", "set-up"), MILLISECONDS(".1f", "solve")),
-    *(PERCENT("z.2f", "error"), PERCENT("z.2f", "field error"), PERCENT("z.2f", "est.")),
-    Column("status", prose=True),
-)
+COMPONENTS = tuple(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz")
 FORCES = ("edge", "model", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
 
 
+@dataclass(frozen=True)
+class ProbeRow:
+    """Displacement of a probe by a model [m], its difference from the reference, the
+    reference's bar, and relative changes by 1 % of parameters."""
+
+    probe: str
+    x: Annotated[float, MILLIMETRES(".4g", detail=True)]
+    y: Annotated[float, MILLIMETRES(".4g", detail=True)]
+    model: str
+    displacement: dict[Column, float]
+    difference: Annotated[float | None, PERCENT("z.2f")]
+    bar: Annotated[float | None, PERCENT(".2g", "±")]
+    sensitivity: dict[Column, float | None]
+
+
+@dataclass(frozen=True)
+class CostRow:
+    """Cost and errors of a model; forces: of some supports and obstacles [N]."""
+
+    model: str
+    label: Annotated[str, Column("what it is", prose=True, detail=True)]
+    unknowns: Annotated[int, NUMBER("d")]
+    factorisations: Annotated[int, NUMBER("d", detail=True)]
+    set_up: Annotated[float, SECONDS("z.2f", "set-up")]
+    solve: Annotated[float, MILLISECONDS(".1f")]
+    error: Annotated[float | None, PERCENT("z.2f")]
+    field_error: Annotated[float | None, PERCENT("z.2f")]
+    expected: Annotated[float | None, PERCENT("z.2f", "est.")]
+    forces: dict[Column, float | None]
+    status: Annotated[str, Column(prose=True)]
+
+
 def settling(scene: Scene) -> str:
-    """Return which motion brings a sheet to rest that statics do not."""
+    """Return advice on a motion that may bring the sheet to rest if statics fail."""
     material = scene.material
     damped = material.damping_rate or material.dashpot_time or material.branches.times or scene.dampers
-    rate = material.damping_rate or SLOW
-    before = "" if damped or scene.air else f"with [material] damping_rate = {SLOW:g} "
-    return f"{before}its motion comes to rest: sheetbench simulate SCENE --duration {AT_REST / rate:.2g}"
+    until = AT_REST / (material.damping_rate or DEFAULT_RATE)
+    command = f"; to watch it: sheetbench simulate SCENE --duration {until:.2g}"
+    return "--settle starts from the end of its damped motion" + command * bool(damped or scene.air)
 
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Compared, Answer):
-    """Document, tables, pictures, files and notes of solutions that are compared."""
+    """A comparison of solutions with its document, tables, figures, files and notes; sensitive_to: names of
+    parameters by which the probes' derivatives are shown."""
 
+    sensitive_to: tuple[str, ...] = ()
     file_name, page_name, notes_shown = "comparison", "table", 1
 
     @property
@@ -79,6 +106,7 @@ class Comparison(Compared, Answer):
             "apart": self.disagreement,
             "sentence": self.sentence,
             "differences": [asdict(difference) for difference in self.differences],
+            **({"sensitivities": self.sensitivities} if self.sensitive_to else {}),
             "errors": [
                 {
                     "of": solution.model,
@@ -106,75 +134,107 @@ class Comparison(Compared, Answer):
         }
 
     def result(self) -> str:
-        ended = ", ".join(f"{s.model} {s.status}" for s in self.solutions[:2])
-        return self.sentence or f"not comparable: {ended}"
+        statuses = ", ".join(f"{s.model} {s.status}" for s in self.solutions[:2])
+        return self.sentence or f"not comparable: {statuses}"
 
     @cached_property
     def sentence(self) -> str:
-        """How far the lattice is from the reference, and that from the sheet, in a sentence; nothing where
-        they cannot be compared."""
+        """Errors of the lattice and of the reference in a sentence, "" if they cannot be compared."""
         lattice, reference = self.solutions[:2]
-        off, over = self.error(lattice), self.field_errors.get(lattice.model)
-        if off is None:
+        error, field_error = self.error(lattice), self.field_errors.get(lattice.model)
+        if error is None:
             return ""
-        bar = None if self.bar is None else self.bar.error
-        where = f" at the probes and {_percent(over)} over the sheet" if over and far(off, over, bar) else ""
-        said = f"The lattice is {_percent(off)} off the {reference.model}{where}"
-        of = self.scene.material
-        alone = of.kind == "isotropic" and of.law in (None, "neo-hookean")
-        if (left := self.model_error) is None:
-            return f"{said}; how far that is from the sheet as described is not known."
-        within = left.value + (bar or 0.0)
-        held = {"the clamp also holds the thickness": left.clamp, "hinges also hold the twist": left.hinge}
-        changed = "; ".join(f"{_percent(within + by)} if {what}" for what, by in held.items() if by > 0.0)
+        bar, where = None if self.bar is None else self.bar.error, ""
+        if field_error and far(error, field_error, bar):
+            where = f" at the probes and {few_percent(field_error)} over the sheet"
+        sentence = f"The lattice is {few_percent(error)} off the {reference.model}{where}"
+        material = self.scene.material
+        one_modulus = material.kind == "isotropic" and material.law in (None, "neo-hookean")
+        if (model_error := self.model_error) is None:
+            return f"{sentence}; the {reference.model}'s own error from the sheet as described is not known."
+        total = model_error.value + (bar or 0.0)
+        conditions = {
+            "the clamp also holds the thickness": model_error.clamp,
+            "hinges also hold the twist": model_error.hinge,
+        }
+        exceptions = "; ".join(
+            f"{few_percent(total + e)} if {text}" for text, e in conditions.items() if e > 0.0
+        )
         mesh = "" if self.bar else " but for the error of its mesh"
         return (
-            f"{said}, and the {reference.model} within {_percent(within)} of the sheet as described{mesh}"
-            f"{f' ({changed})' * bool(changed)}; {'E is' if alone else 'its constants are'} not in this."
+            f"{sentence}, and the {reference.model} within {few_percent(total)} of the sheet as described"
+            f"{mesh}{f' ({exceptions})' * bool(exceptions)}; "
+            f"{'E is' if one_modulus else 'its constants are'} not in this."
         )
 
     def heading(self) -> tuple[str, str, str]:
         return self.scene.name, self.scene.title, sheet_in_words(self.scene.sheet, self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
-        """Displacement at the probes, the reference first; cost and error; forces of the supports."""
+        """Return displacements at the probes, the reference first; cost and error; forces of the supports."""
         return self._displacements(), self._costs(), self._reactions()
 
     def printed(self) -> tuple[Table, ...]:
-        """Return displacements and costs, and beside these the forces of moved supports and of obstacles."""
+        """Return displacements, and costs with the forces of moved supports and of obstacles."""
         moved = {name for name, support in named(self.scene.supports).items() if support.motion is not None}
         moved |= {motion.held_as for motion in self.scene.motions().values()}
         moved |= {name for solution in self.solutions for name in solution.contacts}
         return self._displacements(), self._costs(sorted(moved))
 
+    @cached_property
+    def sensitivities(self) -> dict[str, dict[str, dict[str, float | None]]]:
+        """Relative change of each probe's |u| by 1 % of a parameter (d|u|/dθ · θ/100|u|), by model, parameter
+        and probe, for models with derivatives. Raises BadInput for unknown parameters."""
+        found: dict[str, dict[str, dict[str, float | None]]] = {}
+        named = {name: parameter(self.scene, name) for name in self.sensitive_to}
+        for solution in self.solutions:
+            if solution.sensitivity is None or solution.status is not Status.CONVERGED:
+                continue
+            of, points = solution.sensitivity(), self.scene.probe_points()
+            u = solution.displacement(points)
+            size = np.sum(u**2, axis=1)
+            still = size <= (ROUND_OFF * np.abs(u).max()) ** 2
+            found[solution.model] = {}
+            for name, one in named.items():
+                share = 0.01 * one.value * np.sum(u * of.moved_at(points, name), axis=1)
+                shares = zip(self.scene.probes, share / np.where(still, 1.0, size), still, strict=True)
+                found[solution.model][name] = {n: None if held else float(by) for n, by, held in shares}
+        return found
+
     def _displacements(self) -> Table:
-        off = {(d.probe, d.of): d.relative for d in self.differences}
+        differences = {(d.probe, d.of): d.relative for d in self.differences}
         ordered = sorted(self.solutions, key=lambda solution: solution is not self.reference)
         models = [(s.model, self.probes(s)) for s in ordered]
         bars = {(probe, self.reference.model): bar for probe, bar in self.relative_bars.items()}
+        columns = {name: PERCENT("z.2f", f"by 1 % of {name}") for name in self.sensitive_to}
+        of = {model: self.sensitivities.get(model, {}) for model, _ in models} if columns else {}
         rows = (
-            (probe, x, y, model, *moved[probe], off.get((probe, model)), bars.get((probe, model)))
+            ProbeRow(
+                *(probe, x, y, name, dict(zip(COMPONENTS, u[probe].tolist(), strict=True))),
+                *(differences.get((probe, name)), bars.get((probe, name))),
+                {column: of[name].get(key, {}).get(probe) for key, column in columns.items()},
+            )
             for probe, (x, y) in self.scene.probes.items()
-            for model, moved in models
+            for name, u in models
         )
-        return Table.listed("Displacement of the mid-surface", MOVED, rows, "table", grouped=True)
+        return Table.of(ProbeRow, rows, "Displacement of the mid-surface", "table", grouped=True)
 
-    def _costs(self, exerting: Sequence[str] = ()) -> Table:
-        """Return cost and error of each model; exerting: names of what it gives the size of the force of."""
+    def _costs(self, supports: Sequence[str] = ()) -> Table:
+        """Return cost and error of each model; supports: names of bodies whose forces are included."""
+        columns = {name: NEWTONS(".4g", f"force of {name}") for name in supports}
         rows = (
-            (
+            CostRow(
                 *(s.model, s.label, s.unknowns, s.iterations, s.setup_seconds, s.solve_seconds),
                 *(self.error(s), self.field_errors.get(s.model), self._expected(s)),
-                *(hypot(*s.reactions[name]) if name in s.reactions else None for name in exerting),
+                {c: hypot(*s.reactions[n]) if n in s.reactions else None for n, c in columns.items()},
                 s.status_text,
             )
             for s in self.solutions
         )
-        costs = (*COSTS[:-1], *(NEWTONS(".4g", f"force of {name}") for name in exerting), COSTS[-1])
-        return Table.listed("Cost and error of each model", costs, rows, "models", text="; ".join(self.busy))
+        return Table.of(CostRow, rows, "Cost and error of each model", "models", text="; ".join(self.busy))
 
     def _expected(self, solution: Solution) -> float | None:
-        """Return the grid error expected of the chosen lattice; where there is none a note says why."""
+        """Return the expected grid error of the chosen lattice, None without one and for other models."""
         if solution is self.solutions[0] and isinstance(self.expected, ExpectedError):
             return self.expected.value
         return None
@@ -185,21 +245,19 @@ class Comparison(Compared, Answer):
 
     def figures(self) -> tuple[Picture, ...]:
         lattice, reference = self.solutions[:2]
-        both = f"{self.scene.name}: {lattice.label} against {reference.label}"
-        described = ": ".join(filter(None, [both, self.error_in_words(lattice)]))
-        return (Picture("comparison", "comparisons.comparison.figure:compose", (self,), described, RASTER),)
+        models = f"{self.scene.name}: {lattice.label} against {reference.label}"
+        text = ": ".join(filter(None, [models, self.error_in_words(lattice)]))
+        return (Picture("comparison", "comparisons.comparison.figure:compose", (self,), text, RASTER),)
 
     def files(self) -> dict[str, Write]:
         """Return the solutions as VTU, each on its own mesh and all on one."""
-        own: dict[str, Write] = {f"{s.model}.vtu": partial(write_mesh, mesh=s.mesh) for s in self.solutions}
-        return {**own, "comparison.vtu": self.write_plan}
+        files: dict[str, Write] = {f"{s.model}.vtu": partial(write_mesh, mesh=s.mesh) for s in self.solutions}
+        return {**files, "comparison.vtu": self.write_plan}
 
     def write_plan(self, path: Path) -> None:
-        """Write all solutions on one plan grid, `displacement_MODEL` each, and what they differ by.
-
-        `displacement` is the reference's; `difference` is the chosen lattice's from it, `difference_MODEL`
-        any other model's.
-        """
+        """Write all solutions on one plan grid as `displacement_MODEL`, and their differences. `displacement`
+        is the reference's; `difference` is the chosen lattice's difference from it, `difference_MODEL`
+        another model's."""
         plan = plan_mesh(self.scene)
         fields = {s.model: s.displacement(plan.points[:, :2]) for s in self.solutions}
         truth = fields[self.reference.model]
@@ -215,12 +273,11 @@ class Comparison(Compared, Answer):
         return {solution.model: solution.settings for solution in self.solutions}
 
     def complaints(self) -> list[str]:
-        """Return a sentence for every model that did not converge: what happened and what can be done; and
-        why lattice and reference are far apart though both did."""
+        """Return advice for every model that did not converge, and the reason of a large disagreement."""
         unsettled = (Status.STEP_LIMIT, Status.DIVERGED)
         return [*([self.disagreement] if self.disagreement else [])] + [
             ": ".join(part for part in (s.model, s.status_text, s.message, s.status.advice) if part)
-            + f"; {settling(self.scene)}" * (s.status in unsettled)
+            + f"; {settling(self.scene)}" * (s.status in unsettled and "begun" not in s.settings)
             for s in self.solutions
             if s.status is not Status.CONVERGED
         ]
@@ -240,28 +297,24 @@ class Comparison(Compared, Answer):
             " · ".join(solution.label for solution in self.solutions),
             f"difference: |u − {ref}| / |{ref}| at the probe. "
             f"error: largest component of u − {ref} over the probes / largest component of {ref}; "
-            "field error: likewise over the sheet."
+            "field error: likewise over the whole sheet."
             + " ±: mesh error of the reference at the probe."
             * (self.bar is not None),
         ]
 
     def _bar_notes(self) -> list[str]:
-        """Return the reference's error bar in words, and the models that differ from it by less."""
-        found, model = list[str](), self.reference.model
+        """Return the reference's error bar in words, and the models within it."""
+        notes, model = list[str](), self.reference.model
         if self.bar is None:
-            return found
-        found.append(self.bar.note(model))
-        found += [f"{model}: {left_out}."] if (left_out := str(self.model_error or "")) else []
+            return notes
+        notes.append(self.bar.note(model))
+        notes += [f"{model}: {text}."] if (text := str(self.model_error or "")) else []
         for solution in self.solutions:
-            close = [
+            within = [
                 d.probe for d in self.differences if d.of == solution.model and d.distinguishable is False
             ]
             if self.distinguishable(solution) is False:
-                found.append(f"{solution.model}: not distinguishable from {model}.")
-            elif close:
-                found.append(f"{solution.model}: not distinguishable from {model} at {', '.join(close)}.")
-        return found
-
-
-def _percent(share: float) -> str:
-    return f"{few(100.0 * share)} %"
+                notes.append(f"{solution.model}: not distinguishable from {model}.")
+            elif within:
+                notes.append(f"{solution.model}: not distinguishable from {model} at {', '.join(within)}.")
+        return notes

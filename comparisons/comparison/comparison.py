@@ -1,4 +1,4 @@
-"""A scene solved by a lattice and a reference, and by what is shown beside them."""
+"""A scene solved by a lattice, a reference, and further models."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from comparisons.comparison import branches
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.error_bar import CHEAP, error_bar
 from comparisons.comparison.far_apart import far_apart_note
+from comparisons.comparison.settle import require_settling, solved_from_motion
 from comparisons.external.plugins import shown_name
 from comparisons.models.context import context
 from comparisons.models.expected_error import expected_error
@@ -19,10 +20,8 @@ from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import warm_both
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
-from comparisons.sweep.differences import error as error  # where others take it from
+from comparisons.sweep import load
 from comparisons.sweep.here import here, with_room
-from comparisons.sweep.load import average
-from comparisons.sweep.load import warnings as doubts
 from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
@@ -43,63 +42,69 @@ def compare(
     uncertainty: bool | None = None,
     companion: bool = True,
     models: Sequence[Spec | str] = (),
+    settle: bool = False,
 ) -> Comparison:
-    """Return the answers of a lattice and a reference side by side, as `comparisons.cli.compare` says.
+    """Return the answers of a lattice, a reference and further models of a scene, with their errors.
 
-    companion: also uniform springs in cells of one size, as `lumped-uniform`, where the lattice leaves its
-    calibration open. The reference has the lattice's branch. A name of `models` that is taken is changed.
+    The options are explained in `comparisons.cli.compare`. The reference has the lattice's branch. companion:
+    add uniform springs in cells of one size as `lumped-uniform` if the lattice's calibration is open.
+    Duplicate model names get a suffix. settle: start every model from the end of its damped motion
+    (`comparisons.comparison.settle`).
 
-    Raises SceneError for a scene without a static answer, BadInput for choices that do not exist, and the
-    solvers' own errors for settings they cannot use. A solve that fails is data: see each solution's status.
+    Raises SceneError for a scene without a static answer, BadInput for unknown choices, and the solvers' own
+    errors for settings they cannot use. A failed solve is reported by its solution's status.
     """
     scene = load_static(scene)
-    given = {"elements": elements, "law": law, "branch": lattice.branch}
-    against = resolve(scene, Elements.given(reference, given))
-    first = resolve(scene, lattice)
-    named: dict[str, Resolved[Any]] = {first.spec.model: first, against.spec.model: against}
-    left_open = lattice.calibration is None and lattice.k is None and first.spec.calibration is not None
-    if companion and left_open and not scene.drawn_by:
-        named[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
-    for other in models:
-        beside = resolve(scene, parse(other))
-        named[unlike(shown_name(beside.spec.model), named)] = beside
-    if not compiled_before(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first on this machine
-        warm_both(first.spec.model, against.spec.model)
+    keywords = {"elements": elements, "law": law, "branch": lattice.branch}
+    reference_model = resolve(scene, Elements.given(reference, keywords))
+    lattice_model = resolve(scene, lattice)
+    by_name: dict[str, Resolved[Any]] = {m.spec.model: m for m in (lattice_model, reference_model)}
+    is_open = lattice.calibration is lattice.k is None and lattice_model.spec.calibration is not None
+    if companion and is_open and not scene.drawn_by and not settle:
+        by_name[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
+    for spec in models:
+        further = resolve(scene, parse(spec))
+        by_name[unlike(shown_name(further.spec.model), by_name)] = further
+    if not compiled_before(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first run on this machine
+        warm_both(lattice_model.spec.model, reference_model.spec.model)
+    require_settling(by_name.values() if settle else ())
     rows = []
-    for name, model in named.items():
-        rows.append(here(model, name))
+    for name, model in by_name.items():
+        rows.append(solved_from_motion(model, name) if settle else here(model, name))
         context().solved(rows[-1].answer)
-    solutions = [row.answer for row in rows]
-    disagreement = ""
-    several = begun = other_branch = False
-    one_branch = branches.joined(first, against, *solutions[:2])
-    if one_branch is not None:
-        several, begun = True, one_branch[1] is not solutions[1]
-        solutions[0], solutions[1], disagreement = one_branch
-    finer = partial(with_room, scene)
-    expected = expected_error(scene, first.spec, solutions[0], finer)
+    solutions, disagreement = [row.answer for row in rows], ""
+    joined = branches.joined(lattice_model, reference_model, *solutions[:2])
+    restarted = settle or (joined is not None and joined[1] is not solutions[1])
+    if joined is not None:
+        solutions[0], solutions[1], disagreement = joined
+    solve = partial(with_room, scene)
+    expected = None if settle else expected_error(scene, lattice_model.spec, solutions[0], solve)
     bar = None
-    alone = begun or solutions[1].status is Status.UNSTABLE  # coarser meshes may be on another branch
-    wanted = against.spec.kind in CHEAP if uncertainty is None else uncertainty
-    if wanted and solutions[1].comparable and not alone:
-        meshes = [against.spec.but(count=n) for n in coarser(against.spec.elements)[1:]]
+    branch_may_change = restarted or solutions[1].status is Status.UNSTABLE  # on coarser meshes
+    with_bar = reference_model.spec.kind in CHEAP if uncertainty is None else uncertainty
+    if with_bar and solutions[1].comparable and not branch_may_change:
+        meshes = [reference_model.spec.but(count=n) for n in coarser(reference_model.spec.elements)[1:]]
         bar = error_bar([rows[1], *map(here, (resolve(scene, mesh) for mesh in meshes))])
-    answers, within = tuple(solutions), None if bar is None else bar.error
+    answers, other_branch = tuple(solutions), False
     if not disagreement:
-        disagreement, other_branch = far_apart_note(first, answers, within, finer)
-    known, busy = several or other_branch, tuple(doubts([{"load_average": average()}]))
-    law_chosen = against.spec.law is not None
-    return Comparison(scene, answers, bar, disagreement, expected, known, other_branch, busy, law_chosen)
+        bar_value = None if bar is None else bar.error
+        disagreement, other_branch = far_apart_note(lattice_model, answers, bar_value, solve)
+    return Comparison(
+        *(scene, answers, bar, disagreement, expected),
+        several=settle or joined is not None or other_branch,
+        other_branch=other_branch,
+        busy=tuple(load.warnings([{"load_average": load.average()}])),
+        law_chosen=reference_model.spec.law is not None,
+    )
 
 
 def load_static(scene: AnyScene) -> Scene:
-    """Return the scene, that of a catalogue name or file refused by that name if its supports leave it free
-    to move."""
+    """Return a scene with a static answer; a refusal names its catalogue name or file."""
     loaded = scene_of(scene)
     try:
         require_static(loaded)
-    except SceneError as free:
+    except SceneError as error:
         if isinstance(scene, Scene):
             raise
-        raise SceneError(f"{scene}: {free}") from None
+        raise SceneError(f"{scene}: {error}") from None
     return loaded

@@ -1,5 +1,4 @@
-"""Scenes × models × meshes, from lists as people write them, through a campaign's store: a model's limit on
-every scene."""
+"""Convergence of many models on many scenes, with meshes from lists, through a campaign's store."""
 
 from __future__ import annotations
 
@@ -28,13 +27,13 @@ def crosscheck(
     *,
     models: Mapping[str, Sequence[Spec]],
     codes: Mapping[str, ExternalCode] = {},
-    **how: Unpack[CampaignKeywords],
+    **campaign: Unpack[CampaignKeywords],
 ) -> Crosscheck:
-    """Carry out what the store does not have, and return every model's limit on every scene.
+    """Carry out runs missing from the store, and return every model's converged limit on every scene.
 
-    models: candidates by what tables call them, coarsest mesh first, those of external codes among them;
-    codes: the external ones by the model that selects them, absent too. Raises BadInput, before the first
-    run, for candidates that cannot be and for those that take more memory than there is.
+    models: candidates by their names in tables, external codes included, coarsest mesh first; codes: external
+    codes by their model, installed or not. Raises BadInput, before the first run, for impossible candidates
+    and for candidates that need more memory than is free.
     """
     versions = {model: code.version() for model, code in codes.items()}
     asks = [
@@ -49,7 +48,7 @@ def crosscheck(
         for name, specs in models.items()
         for spec in specs
     ]
-    rows = sweep(asks, store, **how)
+    rows = sweep(asks, store, **campaign)
 
     def limit(scene: Scene, name: str) -> Limit:
         tags = {"scene": scene.name, "model": name}
@@ -60,16 +59,13 @@ def crosscheck(
 
 
 def load_scenes(names: Sequence[str]) -> list[Scene]:
-    """Return the scenes of names and files, `all` for the catalogue.
-
-    Raises BadInput for one that does not exist, has no static answer, or shares its name with another.
-    """
+    """Return the scenes of names and files, `all` for the catalogue. Raises BadInput for a scene that is
+    unknown, has no static answer, or shares its name with another."""
     scenes: dict[str, Scene] = {}
-    for name in names:
-        for each in catalogue() if name == ALL else [name]:
-            scene = load_static(each)
-            if scenes.setdefault(scene.name, scene) != scene:
-                raise BadInput(f"{each}: another scene has its name, '{scene.name}', already")
+    for path in [path for name in names for path in (catalogue() if name == ALL else [name])]:
+        scene = load_static(path)
+        if scenes.setdefault(scene.name, scene) != scene:
+            raise BadInput(f"{path}: another scene has its name, '{scene.name}', already")
     return list(scenes.values())
 
 
@@ -81,9 +77,7 @@ def candidates(
     code_meshes: Sequence[str] | None,
 ) -> dict[str, list[Spec]]:
     """Return lattice, references and installed external codes, each on its meshes, coarsest first.
-
-    code_meshes: in place of each code's own. Raises BadInput for what cannot be read and for nothing at all.
-    """
+    code_meshes: replace each code's own. Raises BadInput for invalid lists and if no model is left."""
     models: dict[str, list[Spec]] = {}
     if sizes := _numbers("--lumped", grids, 3):
         models[lattice.model] = [lattice.but(grid=n) for n in sizes]
@@ -100,16 +94,11 @@ def candidates(
 
 
 def _numbers(option: str, counts: Sequence[str], least: int) -> list[int]:
-    """Sizes along the shorter side, rising. Raises BadInput, for one alone too: two at least show a
-    change."""
+    """Return sizes along the shorter side, rising. Raises BadInput, also for a single size."""
     sizes = [parse_elements(part, option) for part in counts]
     numbers = [size for size in sizes if isinstance(size, int)]
-    fine = (
-        len(numbers) == len(sizes) != 1
-        and numbers == sorted(set(numbers))
-        and min(numbers, default=3) >= least
-    )
-    if not fine:
+    rising = len(numbers) == len(sizes) != 1 and numbers == sorted(set(numbers))
+    if not rising or min(numbers, default=3) < least:
         listed = ",".join(counts)
         raise BadInput(
             f"{option} = '{listed}': two sizes or three along the shorter side, rising, as 8,12,16"

@@ -1,5 +1,5 @@
-"""Every model's limit and bar on every scene, how far from the shell, and where they differ: the answer of
-`sheetbench crosscheck`."""
+"""Converged limits and error bars of models on scenes, and their differences: the answer of `sheetbench
+crosscheck`."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ CODES = ("code", Column("what it is", prose=True), Column("version", prose=True)
 
 @dataclass(frozen=True, repr=False)
 class Crosscheck(Answer):
-    """The limit of every model, by scene; codes: the external ones, absent too."""
+    """The converged limits of all models, by scene; codes: external codes, installed or not."""
 
     file_name = "crosscheck"
     scenes: tuple[Scene, ...]
@@ -44,125 +44,130 @@ class Crosscheck(Answer):
     codes: Mapping[str, ExternalCode]
 
     def against(self, scene: str) -> Limit | None:
-        """Return what the other models of a scene are compared with: the shell, else the first with a bar."""
-        with_bar = [one for one in self.limits[scene] if one.uncertainty is not None]
-        return next((one for one in with_bar if one.name == REFERENCE), with_bar[0] if with_bar else None)
+        """Return the limit for comparisons on a scene: the shell's, else the first with a bar."""
+        with_bar = [limit for limit in self.limits[scene] if limit.uncertainty is not None]
+        return next(
+            (limit for limit in with_bar if limit.name == REFERENCE), with_bar[0] if with_bar else None
+        )
 
     @cached_property
     def pairs(self) -> list[Pair]:
-        """Every two models of a scene that have bars."""
+        """Pairs of models of a scene that both have error bars."""
         return [pair for limits in self.limits.values() for pair in pairs(limits)]
 
     def document(self) -> dict[str, Any]:
         names = {"distinguishable_at": "apart"}
         return {
-            "solutions": [_document(one) for one in self._each()],
+            "solutions": [_document(limit) for limit in self._all_limits()],
             "pairs": [{names.get(key, key): v for key, v in asdict(pair).items()} for pair in self.pairs],
             "judges": [
-                {"name": one.name, "version": (version := one.version()), "needs": one.needs}
+                {"name": code.name, "version": (version := code.version()), "needs": code.needs}
                 | {"status": "absent" if version is None else "found"}
-                for one in self.codes.values()
+                for code in self.codes.values()
             ],
             "failed": self.failures,
         }
 
     @property
     def failures(self) -> list[str]:
-        """A sentence for every mesh that has no answer without having been refused."""
-        return [f"{one.scene.name}, {one.name}: {ended}" for one in self._each() for ended in one.failures]
+        """Failed meshes, a sentence each; refusals are not failures."""
+        return [
+            f"{limit.scene.name}, {limit.name}: {text}"
+            for limit in self._all_limits()
+            for text in limit.failures
+        ]
 
-    def _each(self) -> Iterator[Limit]:
-        """Every model of every scene."""
-        return (one for limits in self.limits.values() for one in limits)
+    def _all_limits(self) -> Iterator[Limit]:
+        """Yield the limits of all models of all scenes."""
+        return (limit for limits in self.limits.values() for limit in limits)
 
     def heading(self) -> tuple[str, str, str]:
         if len(self.scenes) == 1:
             return self.scenes[0].name, self.scenes[0].title, ""
-        return "crosscheck", f"{len(self.scenes)} scenes, every model on meshes of its own", ""
+        return "crosscheck", f"{len(self.scenes)} scenes, every model on its own meshes", ""
 
     def tables(self) -> tuple[Table, ...]:
         limits, *codes = self.printed()
         return (limits, Table.of(Pair, self.pairs, "Every two models", "pairs"), *codes)
 
     def printed(self) -> tuple[Table, ...]:
-        """All but every two models."""
+        """Return the tables without the pairs of models."""
         single = len(self.scenes) == 1
         columns = (Column("scene", detail=single), *LIMITS)
-        limits = [(one.scene.name, one.name, *self._limit(one)) for one in self._each()]
-        needs = "absent: needs {}".format
-        codes = [(one.name, one.called, one.version() or needs(one.needs)) for one in self.codes.values()]
+        limits = [(limit.scene.name, limit.name, *self._limit(limit)) for limit in self._all_limits()]
+        codes = [(c.name, c.called, c.version() or f"absent: needs {c.needs}") for c in self.codes.values()]
         return (
             Table.listed("Extrapolated answers", columns, limits, "crosscheck", grouped=not single),
             *([Table.listed("External codes", CODES, codes, "judges")] if codes else []),
         )
 
-    def _limit(self, one: Limit) -> tuple[Any, ...]:
-        """Return a model's limit where the sheet moves most, how far off it is, and from whom it differs."""
-        truth, bar, scene = self.against(one.scene.name), one.uncertainty, one.scene
+    def _limit(self, limit: Limit) -> tuple[Any, ...]:
+        """Return the values of `LIMITS` from the second on, for the component of largest displacement."""
+        truth, bar, scene = self.against(limit.scene.name), limit.uncertainty, limit.scene
         if truth is None or truth.uncertainty is None or bar is None:
-            status = Status.REFUSED if one.refused else "no answer"
-            return (one.meshes or None, *[None] * 5, str(status))
+            status = Status.REFUSED if limit.refused else "no answer"
+            return (limit.meshes or None, *[None] * 5, str(status))
         u = truth.uncertainty.extrapolated
         probe, axis = np.unravel_index(np.argmax(np.abs(u)), u.shape)
-        own = [p for p in self.pairs if p.scene == scene.name and one.name in (p.a, p.b)]
-        differing = [p.b if p.a == one.name else p.a for p in own if p.distinguishable_at]
+        pairs = [p for p in self.pairs if p.scene == scene.name and limit.name in (p.a, p.b)]
+        differing = [p.b if p.a == limit.name else p.a for p in pairs if p.distinguishable_at]
         at = f"{list(scene.probes)[int(probe)]} u{'xyz'[int(axis)]}"
-        off = self._off(one)
-        apart = (None, None) if off is None else (off.difference, off.bars)
-        own_u = (float(bar.extrapolated[probe, axis]), float(bar.bar[probe, axis]))
-        return (one.meshes, at, *own_u, *apart, ", ".join(differing) or "none")
+        pair = self._pair_with_truth(limit)
+        difference = (None, None) if pair is None else (pair.difference, pair.bars)
+        value = (float(bar.extrapolated[probe, axis]), float(bar.bar[probe, axis]))
+        return (limit.meshes, at, *value, *difference, ", ".join(differing) or "none")
 
-    def _off(self, one: Limit) -> Pair | None:
-        """Return how far a model is from the one that others are compared with, None of that one itself."""
-        truth = self.against(one.scene.name)
-        names = {one.name, truth.name if truth else ""}
-        return next((p for p in self.pairs if p.scene == one.scene.name and {p.a, p.b} == names), None)
+    def _pair_with_truth(self, limit: Limit) -> Pair | None:
+        """Return the pair of a model and the model of `against`, None for the latter itself."""
+        truth = self.against(limit.scene.name)
+        names = {limit.name, truth.name if truth else ""}
+        return next((p for p in self.pairs if p.scene == limit.scene.name and {p.a, p.b} == names), None)
 
     def result(self) -> str:
-        """Return how far the models are from the one that they are compared with, scene by scene."""
+        """Return the differences of all models from the model of `against`, scene by scene."""
         return "; ".join(filter(None, map(self._difference, self.scenes)))
 
     def _difference(self, scene: Scene) -> str:
-        both = [(one.name, self._off(one)) for one in self.limits[scene.name]]
-        off = [f"{name} {few(100 * pair.difference)} %" for name, pair in both if pair is not None]
+        pairs = [(limit.name, self._pair_with_truth(limit)) for limit in self.limits[scene.name]]
+        texts = [f"{name} {few(100 * pair.difference)} %" for name, pair in pairs if pair is not None]
         truth = self.against(scene.name)
-        return f"{scene.name}: {', '.join(off)} from {truth.name}" if off and truth is not None else ""
+        return f"{scene.name}: {', '.join(texts)} from {truth.name}" if texts and truth is not None else ""
 
     def notes(self) -> list[str]:
-        """Why models leave scenes out, and what the columns mean."""
-        reasons: dict[tuple[str, str], list[str]] = {}
-        for one in self._each():
-            if one.refused:
-                reasons.setdefault((one.name, one.finest.message), []).append(one.scene.name)
-        left = (f"{name} leaves out {', '.join(of)}: {why}." for (name, why), of in reasons.items())
-        return [*left, EXPLANATION]
+        """Return the reasons of refusals, and an explanation of the columns."""
+        refusals: dict[tuple[str, str], list[str]] = {}
+        for limit in self._all_limits():
+            if limit.refused:
+                refusals.setdefault((limit.name, limit.finest.message), []).append(limit.scene.name)
+        notes = (f"{name} leaves out {', '.join(of)}: {reason}." for (name, reason), of in refusals.items())
+        return [*notes, EXPLANATION]
 
     def complaints(self) -> list[str]:
-        """The meshes without an answer, and those whose answer is no stable or no physical one."""
-        unsound = (f"{one.scene.name}: {ending}" for one in self._each() for ending in one.unsound)
+        """Return the failed meshes, and the meshes with an unstable or unphysical answer."""
+        unsound = (f"{limit.scene.name}: {text}" for limit in self._all_limits() for text in limit.unsound)
         return [*self.failures, *unsound]
 
     def choices(self) -> dict[str, Any]:
-        codes = {one.name: one.version() for one in self.codes.values()}
+        codes = {code.name: code.version() for code in self.codes.values()}
         return {"scenes": [scene.name for scene in self.scenes], "judges": codes}
 
     @property
     def succeeded(self) -> bool:
-        """Whether every model that takes a scene has a bar there."""
-        return not self.failures and all(one.refused or one.uncertainty for one in self._each())
+        """Whether every model has an error bar on every scene that it does not refuse."""
+        return not self.failures and all(limit.refused or limit.uncertainty for limit in self._all_limits())
 
 
-def _document(one: Limit) -> dict[str, Any]:
-    """A model's finest answer as `compare` has it, with its bars."""
-    finest = one.finest
+def _document(limit: Limit) -> dict[str, Any]:
+    """Return a model's finest answer in the form of `compare`, with its bars."""
+    finest = limit.finest
     row: dict[str, Any] = {"label": finest.label}
     if finest.status == Status.REFUSED:
         row |= {"settings": finest.ask.spec.settings, "advice": Status.REFUSED.advice}
     row |= finest.document | {"status": finest.status, "message": finest.message}
-    row |= {"scene": one.scene.name, "model": one.name, "version": finest.ask.version, "meshes": one.meshes}
-    row |= {"failed": one.failures}
-    if (bar := one.uncertainty) is not None:
-        row["uncertainty"] = dict(zip(one.scene.probes, bar.bar, strict=True))
-        row["extrapolated"] = dict(zip(one.scene.probes, bar.extrapolated, strict=True))
+    row |= {"scene": limit.scene.name, "model": limit.name, "version": finest.ask.version}
+    row |= {"meshes": limit.meshes, "failed": limit.failures}
+    if (bar := limit.uncertainty) is not None:
+        row["uncertainty"] = dict(zip(limit.scene.probes, bar.bar, strict=True))
+        row["extrapolated"] = dict(zip(limit.scene.probes, bar.extrapolated, strict=True))
         row["order"] = bar.overall_order
     return row

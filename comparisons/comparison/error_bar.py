@@ -1,7 +1,7 @@
-"""The error bar that a reference's mesh leaves at every probe of a comparison.
+"""Error bar of a reference at every probe of a comparison, due to its mesh.
 
-The reference is solved on coarser meshes too (`fem_reference.uncertainty`); a model that differs from it by
-less than its bar is not distinguishable from it. Its time is reported separately.
+The reference is solved on coarser meshes too (`fem_reference.uncertainty`). A model that differs from it by
+less than the bar is not distinguishable from it. The time of the coarser solves is reported separately.
 """
 
 from __future__ import annotations
@@ -22,18 +22,16 @@ if TYPE_CHECKING:
     from fem_reference.uncertainty import Uncertainty
 
 METHOD = (
-    "grid convergence index (Roache) of all pairs of meshes at the field's order, and what they miss of the "
-    "layer along edges: that and 0.35 of the field's, 3 times that on two meshes"
+    "grid convergence index (Roache) of all pairs of meshes at the field's order, and the error in the layer "
+    "along edges: that and 0.35 of the field's, 3 times that on two meshes"
 )
-CHEAP = ("plate", "shell")  # references whose error bar is found by default
+CHEAP = ("plate", "shell")  # references with an error bar by default
 
 
 @dataclass(frozen=True)
 class ErrorBar:
-    """The uncertainty of a reference at the probes of a scene.
-
-    elements: along the shorter side, or (nx, ny), the finest mesh first; solve_seconds: of the coarser ones.
-    """
+    """The uncertainty of a reference at the probes of a scene. elements: along the shorter side, or (nx, ny),
+    the finest mesh first; solve_seconds: of the coarser meshes."""
 
     uncertainty: Uncertainty
     names: tuple[str, ...]
@@ -42,51 +40,53 @@ class ErrorBar:
 
     @property
     def error(self) -> float:
-        """The largest bar over the largest displacement: a bar for `error`."""
+        """Error bar of `error`: the largest bar over the largest displacement."""
         return self.uncertainty.error
 
     def at(self, probe: str) -> float:
-        """Length of the bar [m] of the displacement at a probe: a bar for `relative`, times |u_ref|."""
+        """Return the bar of the displacement at a probe [m]: a bar for `relative` times |u_ref|."""
         return float(np.linalg.norm(self.uncertainty.bar[self.names.index(probe)]))
 
     def note(self, model: str) -> str:
         """Return the bar in words."""
-        found, (*finer, coarsest) = self.uncertainty, [counted(n) for n in self.elements]
+        result, (*finer, coarsest) = self.uncertainty, [counted(n) for n in self.elements]
         if len(self.elements) == 2:
-            why = "order 2 assumed, safety factor 3: two meshes show no order"
-        elif np.isfinite(found.overall_order) and found.trusted.all():
-            why = f"observed order {found.overall_order:.1f}"
-        elif found.trusted.all():
-            why = "no change but rounding"
+            basis = "order 2 assumed, safety factor 3: two meshes show no order"
+        elif np.isfinite(result.overall_order) and result.trusted.all():
+            basis = f"observed order {result.overall_order:.1f}"
+        elif result.trusted.all():
+            basis = "no change but rounding"
         else:
-            swing = int(np.sum(~found.trusted))
-            why = f"in {swing} of {found.trusted.size} components the change does not fall with the mesh"
+            count = int(np.sum(~result.trusted))
+            basis = (
+                f"{count} of {result.trusted.size} components did not settle with the mesh: a guess for these"
+            )
         meshes = f"{', '.join(finer)} and {coarsest} elements"
-        return f"{model}: mesh error ± {few(100.0 * self.error)} % (from {meshes}; {why})."
+        return f"{model}: mesh error ± {few(100.0 * self.error)} % (from {meshes}; {basis})."
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON: lengths in metres, orders null where there is none."""
-        found = self.uncertainty
+        """Return the bar as JSON data: lengths in metres, unknown orders null."""
+        result = self.uncertainty
         return {
             "error": self.error,
             "mesh": self.error,
-            "order": found.overall_order,
+            "order": result.overall_order,
             "elements": list(self.elements),
-            "probes": dict(zip(self.names, found.bar, strict=True)),
-            "orders": dict(zip(self.names, found.order, strict=True)),
-            "extrapolated": dict(zip(self.names, found.extrapolated, strict=True)),
-            "trusted": found.converging,
+            "probes": dict(zip(self.names, result.bar, strict=True)),
+            "orders": dict(zip(self.names, result.order, strict=True)),
+            "extrapolated": dict(zip(self.names, result.extrapolated, strict=True)),
+            "trusted": result.converging,
             "solve_seconds": self.solve_seconds,
             "method": METHOD,
         }
 
 
 def error_bar(rows: Sequence[Solved]) -> ErrorBar | None:
-    """Return the bar of a reference's rows, the finest mesh first; None where fewer than two can be used."""
-    found = limit(rows)
-    if found is None:
+    """Return the error bar from rows, the finest mesh first, None for fewer than two usable rows."""
+    uncertainty = limit(rows)
+    if uncertainty is None:
         return None
-    specs = {row.size: row.ask.spec for row in reversed(rows)}  # the first of one size
-    used = tuple(spec.elements for n in found.sizes if isinstance(spec := specs[n], Elements))
+    specs = {row.size: row.ask.spec for row in reversed(rows)}  # the first of equal sizes
+    used = tuple(spec.elements for n in uncertainty.sizes if isinstance(spec := specs[n], Elements))
     seconds = sum(sum(row.samples) for row in rows[1:])
-    return ErrorBar(found, tuple(rows[0].ask.scene.probes), used, seconds)
+    return ErrorBar(uncertainty, tuple(rows[0].ask.scene.probes), used, seconds)

@@ -1,13 +1,13 @@
-"""Displacements of a lattice beside those of a reference: errors, error bars and branches.
+"""Errors of models against a reference, with error bars and branches of equilibria.
 
-With u the displacement of a model and u_ref that of the reference at the same plan points,
+Let u be the displacement of a model and u_ref the reference's at equal plan points:
 
     error        largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
-    field_error  likewise, over points all over the sheet in place of the probes
+    field_error  the error over points of the whole sheet in place of the probes
     relative     |u − u_ref| / |u_ref| at one probe
 
-Both are fractions, and None where they have no meaning: the reference does not move there by more than
-round-off, a number is not finite, or one of the two models did not reach the full load.
+All are fractions. They are None if the reference does not move by more than round-off, a number is not
+finite, or one of the models did not reach the full load.
 """
 
 from __future__ import annotations
@@ -34,17 +34,15 @@ ROUND_OFF = 1e-9  # of the largest displacement at a probe
 
 
 def one_of(answers: Mapping[str, Answered], model: str) -> Answered:
-    """Return the answer of a model. Raises BadInput, naming those that there are."""
+    """Return the answer of a model. Raises BadInput with the valid names."""
     require_choice("model", model, answers)
     return answers[model]
 
 
 @dataclass(frozen=True)
 class Difference:
-    """How far one model is from another at one probe, as a fraction of the other's displacement there.
-
-    distinguishable: whether that is more than the other's own error bar; None where there is no bar.
-    """
+    """Difference of a model from another at a probe, as a fraction of the other's displacement there.
+    distinguishable: whether it exceeds the other's error bar, None without a bar."""
 
     probe: str
     of: str
@@ -55,14 +53,13 @@ class Difference:
 
 @dataclass(frozen=True, repr=False)
 class Compared:
-    """Solutions of one scene: the chosen lattice first, the reference second, then what is shown alongside.
+    """Solutions of one scene: the chosen lattice first, the reference second, then further models.
 
-    Every solution has its own `model` name, by which `differences` and `errors` speak of it. bar: what the
-    reference's mesh leaves uncertain, where that was requested. disagreement: a sentence where both are at
-    rest and far apart. expected: the error to expect of the chosen lattice's grid, or why there is none.
-    several: whether more than one equilibrium is known; other_branch: whether the first two are known to be
-    different ones. busy: sentences on times taken on a busy machine. law_chosen: the reference's law of
-    strain, by the user.
+    Every solution has a unique `model` name, used in `differences` and `errors`. bar: the reference's error
+    bar, if requested; disagreement: a sentence if both are at rest and differ much; expected: expected grid
+    error of the chosen lattice, or the reason for no estimate; several: whether more than one equilibrium is
+    known; other_branch: whether the first two solutions are on different branches; busy: warnings about times
+    on a busy machine; law_chosen: whether the user chose the reference's law of strain.
     """
 
     scene: Scene
@@ -82,26 +79,25 @@ class Compared:
 
     @property
     def reference(self) -> Solution:
-        """The solution that the others are measured against."""
+        """The reference's solution."""
         return self.solutions[1]
 
     def __getitem__(self, model: str) -> Solution:
-        """Return the solution of a model by its name. Raises BadInput where there is none."""
+        """Return the solution of a model by its name. Raises BadInput for an unknown name."""
         return one_of({solution.model: solution for solution in self.solutions}, model)
 
     def probes(self, solution: Solution) -> dict[str, np.ndarray]:
-        """Displacement (3,) [m] at each probe."""
+        """Return the displacement (3,) [m] at each probe."""
         values = solution.displacement(self.scene.probe_points())
         return dict(zip(self.scene.probes, values, strict=True))
 
     @property
     def least(self) -> float:
-        """The displacement [m] of the reference at a probe up to which it is rounding, as at a support."""
+        """Displacement of the reference at a probe [m] below which it counts as rounding, as at a support."""
         return ROUND_OFF * max(float(np.linalg.norm(u)) for u in self.probes(self.reference).values())
 
     def measurable(self, solution: Solution) -> bool:
-        """Return whether a solution and the reference are both stable, and not known to be on different
-        branches."""
+        """Return whether a solution and the reference are stable and may lie on one branch."""
         pair = (solution, self.reference)
         stable = all(one.comparable and one.status is not Status.UNSTABLE for one in pair)
         if not stable or not self.several or (solution in self.solutions[:2] and not self.other_branch):
@@ -117,46 +113,46 @@ class Compared:
 
     @cached_property
     def field_errors(self) -> dict[str, float | None]:
-        """The error over the sheet of every other model that has one, by name."""
+        """Errors over the sheet of the measurable models, by name, without the reference."""
         points = field_points(self.scene)
-        moved = {s.model: s.displacement(points) for s in self.solutions if self.measurable(s)}
-        truth = moved.pop(self.reference.model, None)
-        return {} if truth is None else {model: error(u, truth) for model, u in moved.items()}
+        fields = {s.model: s.displacement(points) for s in self.solutions if self.measurable(s)}
+        truth = fields.pop(self.reference.model, None)
+        return {} if truth is None else {model: error(u, truth) for model, u in fields.items()}
 
     def error_in_words(self, solution: Solution) -> str:
-        """Return the error at the probes and over the sheet, nothing where there is none."""
-        at, over = self.error(solution), self.field_errors.get(solution.model)
-        sheet = "" if over is None else f", over the sheet {100 * over:.2f} %"
-        return "" if at is None else f"error at the probes {100 * at:.2f} %{sheet}"
+        """Return the errors at the probes and over the sheet in words, "" without errors."""
+        at_probes, field_error = self.error(solution), self.field_errors.get(solution.model)
+        sheet = "" if field_error is None else f", over the sheet {100 * field_error:.2f} %"
+        return "" if at_probes is None else f"error at the probes {100 * at_probes:.2f} %{sheet}"
 
     @property
     def differences(self) -> tuple[Difference, ...]:
-        """The relative difference of every other model from the reference at every probe."""
-        truth, least = self.probes(self.reference), self.least
-        found = []
-        for solution in (one for one in self.solutions if one is not self.reference):
-            both = self.measurable(solution)
+        """Relative differences of all other models from the reference at every probe."""
+        truth, least, out = self.probes(self.reference), self.least, []
+        for solution in (s for s in self.solutions if s is not self.reference):
+            measurable = self.measurable(solution)
             for name, value in self.probes(solution).items():
-                off = relative(value, truth[name], least) if both else None
+                difference = relative(value, truth[name], least) if measurable else None
                 beyond_bar = None
-                if self.bar is not None and off is not None:
+                if self.bar is not None and difference is not None:
                     beyond_bar = bool(np.linalg.norm(value - truth[name]) > self.bar.at(name))
-                found.append(Difference(name, solution.model, self.reference.model, off, beyond_bar))
-        return tuple(found)
+                out.append(Difference(name, solution.model, self.reference.model, difference, beyond_bar))
+        return tuple(out)
 
     @cached_property
     def model_error(self) -> ModelError | None:
-        """What the reference leaves out of the sheet on every mesh, where that is known."""
+        """Model error of the reference, independent of its mesh, if known."""
         return model_error(self.scene, self.reference, self.law_chosen)
 
     def distinguishable(self, solution: Solution) -> bool | None:
-        """Return whether a solution's error is above the reference's own; None where either is not known."""
-        off = self.error(solution)
-        return None if self.bar is None or off is None else off > self.bar.error
+        """Return whether a solution's error exceeds the reference's error bar, None if either is unknown."""
+        value = self.error(solution)
+        return None if self.bar is None or value is None else value > self.bar.error
 
     def branch(self, solution: Solution) -> str:
-        """Return which equilibrium, where several are known: "path", "buckled", "of" the model in whose shape
-        it was begun, or "own", where lattice and reference are on different branches."""
+        """Return a solution's branch if several equilibria are known, else "". Values are "path", "buckled",
+        "of MODEL" for a solve that started in another model's shape, and "own" if lattice and reference are
+        on different branches."""
         if "begun" in solution.settings:
             return f"of {solution.settings['begun']}"
         if self.other_branch and solution in self.solutions[:2]:
@@ -166,7 +162,7 @@ class Compared:
 
     @property
     def relative_bars(self) -> dict[str, float]:
-        """The reference's bar over its displacement, at the probes where it moves; 0 where it is rounding."""
+        """The reference's error bar over its displacement, at probes that move; rounding counts as 0."""
         if self.bar is None:
             return {}
         sizes = {probe: float(np.linalg.norm(u)) for probe, u in self.probes(self.reference).items()}

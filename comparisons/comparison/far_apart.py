@@ -1,10 +1,10 @@
-"""Why lattice and reference, both at rest, differ by more than 20 %: too coarse a grid, or other branches.
+"""Reasons for a difference above 20 % between lattice and reference at rest: a coarse grid, or two branches.
 
-A coarse grid's answer comes nearer to the reference's where its cells are halved; on another branch of
-equilibria it goes elsewhere: extrapolated to first order, the slowest that a lattice converges, it is as far
-off. The lattice is solved once more to tell. (Begun in the other's shape a model comes back to its own in
-both cases.) Up to 100 % something else may keep them apart on every grid: springs that do not tend to the
-sheet's, laws of strain; then branches are not told.
+The answer of a too coarse grid moves towards the reference when its cells are halved. On another branch of
+equilibria it does not: extrapolated to first order, the slowest convergence of a lattice, its error remains.
+The lattice is therefore solved once more. (Started in the other's shape, a model returns to its own in both
+cases.) Differences up to 100 % may have other reasons on every grid, as springs that do not converge to the
+sheet's or laws of strain; no branches are reported for them.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from comparisons.sweep.differences import error
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes.language.summary import few
 
-FAR, SURE = 0.2, 1.0  # errors from which on a reason is looked for, and is not in springs or laws
-NEARER = 0.6  # of the error, that a finer grid leaves
-STAYS = 0.75  # of the error, that grids finer still would leave, to first order
-STRAIN_LAW = 2.3 * 2.0  # times the largest stretch: an error that laws of strain do not explain (model_error)
-UNKNOWN = 0.5  # bar of the reference that tells nothing any more
+FAR, SURE = 0.2, 1.0  # errors that need a reason, and errors beyond the effect of springs and strain laws
+NEARER = 0.6  # fraction of the error on a finer grid below which the grid was too coarse
+STAYS = 0.75  # fraction of the error, extrapolated to first order, above which branches differ
+STRAIN_LAW = 2.3 * 2.0  # times the largest stretch: larger errors are not due to strain laws (model_error)
+UNKNOWN = 0.5  # error bar of the reference above which no reason can be given
 
 
 def far_apart_note(
@@ -31,55 +31,54 @@ def far_apart_note(
     bar: float | None,
     solve: Callable[[Lattice], Solution | None],
 ) -> tuple[str, bool]:
-    """Return a sentence where lattice and reference, the first two of the solutions, are FAR apart, else
-    nothing; and whether they are known to lie on different branches, so that an error would measure neither.
+    """Return a sentence on a difference above FAR between lattice and reference, "" for smaller ones; and
+    whether both certainly lie on different branches, which makes errors meaningless.
 
-    bar: of the reference, None where it is not known; solve: answers other grids, None where that takes too
-    much memory.
+    solutions: lattice and reference first; bar: of the reference, None if unknown; solve: solves another
+    lattice, None if it needs too much memory.
     """
     first, reference = solutions[:2]
     if not first.status is reference.status is Status.CONVERGED:
         return "", False
     points = lattice.scene.probe_points()
-    own, right = first.displacement(points), reference.displacement(points)
-    off = error(own, right)
-    if off is None or off <= FAR:
+    coarse_u, truth = first.displacement(points), reference.displacement(points)
+    value = error(coarse_u, truth)
+    if value is None or value <= FAR:
         return "", False
 
-    def reason(cause: str, after: str = "", apart: bool = False) -> tuple[str, bool]:
-        both = f"{first.model} and {reference.model} both converged, {100.0 * off:.3g} % apart"
-        return f"{both}: {cause}{after}.", apart
+    def reason(cause: str, addition: str = "", branches_differ: bool = False) -> tuple[str, bool]:
+        models = f"{first.model} and {reference.model} both converged, {100.0 * value:.3g} % apart"
+        return f"{models}: {cause}{addition}.", branches_differ
 
-    if other := ", ".join(sorted(first.touched ^ reference.touched)):
-        return reason(f"{other}: one of them alone touches it, as too coarse a grid or mesh may")
+    if touched_once := ", ".join(sorted(first.touched ^ reference.touched)):
+        return reason(f"{touched_once}: one of them alone touches it, as too coarse a grid or mesh may")
     finer = None
     if lattice.spec.calibration is not None:
         nx, ny, layers = lattice.grid
         finer = solve(lattice.spec.but(grid=(2 * nx - 1, 2 * ny - 1, layers)))
     if finer is None or finer.status is not Status.CONVERGED:
-        ended = "" if finer is None else f"; on twice as many cells a side the lattice ends {finer.status}"
-        return reason("different branches of equilibria, or too coarse a grid or mesh", ended)
-    fine = finer.displacement(points)
-    left, moved = error(fine, right) or 0.0, error(own, fine) or 0.0
+        status = "" if finer is None else f"; with twice as many cells per side the lattice is {finer.status}"
+        return reason("different branches of equilibria, or too coarse a grid or mesh", status)
+    fine_u = finer.displacement(points)
+    fine_error, change = error(fine_u, truth) or 0.0, error(coarse_u, fine_u) or 0.0
     masses = f"on {counted(finer.settings['grid'])} masses"
-    moves = f"{masses} the lattice moves by {few(100.0 * moved)} %, to {100.0 * left:.3g} % off"
-    if left < NEARER * off:
-        return reason(f"the grid is too coarse, {masses} it is {100.0 * left:.3g} %")
+    moves = f"{masses} the lattice moves by {few(100.0 * change)} %, to {100.0 * fine_error:.3g} % off"
+    if fine_error < NEARER * value:
+        return reason(f"the grid is too coarse, {masses} it is {100.0 * fine_error:.3g} %")
     if bar is not None and bar > UNKNOWN:
-        return reason(f"the {reference.model}'s mesh leaves ± {few(100.0 * bar)} %, more --elements tell")
-    ahead = error(2.0 * fine - own, right) or 0.0
-    if ahead > STAYS * off and (off > SURE or _tends(lattice, reference, off)):
-        trust = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
-        branches = f"they lie on different branches of equilibria{trust}, for {moves}"
-        return reason(branches, apart=bar is not None)
+        return reason(f"the {reference.model}'s error bar is ± {few(100.0 * bar)} %, take more --elements")
+    extrapolated = error(2.0 * fine_u - coarse_u, truth) or 0.0
+    if extrapolated > STAYS * value and (value > SURE or _converges_within(lattice, reference, value)):
+        condition = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
+        text = f"they lie on different branches of equilibria{condition}, for {moves}"
+        return reason(text, branches_differ=bar is not None)
     return reason(f"different branches of equilibria, or too coarse a grid: {moves}")
 
 
-def _tends(lattice: Resolved[Lattice], reference: Solution, off: float) -> bool:
-    """Return whether on one branch the lattice's answer tends to the reference's, but for less than an
-    error."""
+def _converges_within(lattice: Resolved[Lattice], reference: Solution, error: float) -> bool:
+    """Return whether the lattice converges to within an error of the reference if both lie on one branch."""
     return (
         converges(lattice.spec, lattice.grid)
         and not lattice.scene.actuators
-        and off > STRAIN_LAW * (reference.stretch or 0.0)
+        and error > STRAIN_LAW * (reference.stretch or 0.0)
     )

@@ -1,7 +1,7 @@
-"""The picture of a comparison: the lattice, the reference, and their difference on the deformed sheet.
+"""The figure of a comparison: the lattice, the reference, and their difference on the deformed sheet.
 
-The sheets are drawn at true scale unless they move too little to see; lengths are in millimetres. Actuators
-and loads are drawn on both (`comparisons.pictures.stage`).
+The sheets are drawn at true scale unless their displacements are too small to see; lengths are in
+millimetres. Actuators and loads are drawn on both sheets (`comparisons.pictures.stage`).
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from sheetbench.answers.style import GREY, plain
 from sheetbench.scenes import Scene
 
 LINE = 105  # characters of a title in full size
-VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: what moves less than the first is drawn as the second
-FLAT = 1e-3  # of the largest displacement: what moves less across its plane is shown by how it stretches
-TALLEST = 1.9  # inches of a panel above others: the three and their words fill a page
+VISIBLE, DRAWN = 0.02, 0.08  # of the longer side: displacements below the first are enlarged to the second
+FLAT = 1e-3  # of the largest displacement: sheets with smaller deflections show a component in the plane
+TALLEST = 1.9  # inches, height of stacked panels: three with their texts fill a page
 HEIGHTS = "viridis"
 DIFFERENCES = ListedColormap(
     colormaps["magma_r"](np.linspace(0.0, 0.75, 256)), "magma_r"
@@ -48,8 +48,8 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     lattice, reference = comparison.solutions[:2]
     if not all(np.all(np.isfinite(s.mesh.point_data["displacement"])) for s in (lattice, reference)):
         raise NoPicture("a displacement is not a finite number")
-    if impossible := offscreen.why_not():
-        raise NoPicture(impossible)
+    if reason := offscreen.why_not():
+        raise NoPicture(reason)
     plan = plan_mesh(scene).points[:, :2]
     truth = reference.displacement(plan)
     difference = 1e3 * np.linalg.norm(lattice.displacement(plan) - truth, axis=1)
@@ -65,21 +65,22 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     if any(kind == "line" for kind, _ in lattice.mesh.cells):
         left.lattice(lattice.mesh, masses, height_limits, HEIGHTS)
     else:
-        shown_heights = 1e3 * lattice.displacement(plan)[:, axis]
-        left.surface(lattice, shown_heights, height_limits, HEIGHTS, _elements(lattice))
+        lattice_heights = 1e3 * lattice.displacement(plan)[:, axis]
+        left.surface(lattice, lattice_heights, height_limits, HEIGHTS, _elements(lattice))
     middle.surface(reference, heights, height_limits, HEIGHTS, _elements(reference))
     right.surface(reference, difference, difference_limits, DIFFERENCES, 0)
     flat = np.column_stack([plan, np.zeros(len(plan))])
-    shown = ((left, lattice), (middle, reference), (right, reference))
-    ends = [*(draw(stage, solution) for stage, solution in shown[:2]), right.obstacles()]
+    stages = ((left, lattice), (middle, reference), (right, reference))
+    ends = [*(draw(stage, solution) for stage, solution in stages[:2]), right.obstacles()]
     seen = np.vstack([flat, left.deformed(reference, plan), left.deformed(lattice, plan), *ends])
     probes = scene.probe_points()
-    shots = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in shown]
+    images = [stage.take(seen, stage.deformed(solution, probes)) for stage, solution in stages]
 
     rows, columns = style.panels(3)
-    aspect = shots[0][0].shape[0] / shots[0][0].shape[1]
-    tall = style.width / columns * aspect
-    height = rows * ((min(tall, TALLEST) if style.narrow else tall) + 0.85) + 0.2 * style.titled
+    aspect = images[0][0].shape[0] / images[0][0].shape[1]
+    panel_height = style.width / columns * aspect
+    panel_height = min(panel_height, TALLEST) if style.narrow else panel_height
+    height = rows * (panel_height + 0.85) + 0.2 * style.titled
     figure = Figure(figsize=(style.width, height), layout="constrained")
     axes = figure.subplots(rows, columns).ravel()
     titles = [
@@ -87,38 +88,37 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
         MODEL_NAMES.get(reference.model, reference.model),
         "Difference",
     ]
-    for panel, (image, _), title, subtitle in zip(
-        axes, shots, titles, (lattice.label, reference.label, comparison.error_in_words(lattice)), strict=True
-    ):
+    subtitles = (lattice.label, reference.label, comparison.error_in_words(lattice))
+    for panel, (image, _), title, subtitle in zip(axes, images, titles, subtitles, strict=True):
         panel.imshow(image, interpolation="lanczos")
         panel.set_axis_off()
         panel.set_title(title, fontsize=8.5, fontweight="bold", pad=12)
-        below: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "ha": "center"}
-        panel.annotate(subtitle, (0.5, 1.0), (0.0, 2.5), fontsize=6.5, color=GREY, va="bottom", **below)
-    below_both: dict[str, Any] = {"ax": axes[1:2] if style.narrow else axes[:2], "shrink": 0.5, "aspect": 40}
-    colour_bar(figure, HEIGHTS, height_limits, f"$u_{'xyz'[axis]}$  [mm]", **below_both)
-    below_last: dict[str, Any] = {"ax": axes[2], "shrink": 0.7, "aspect": 28}
-    colour_bar(figure, DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]", **below_last)
-    drawn = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
+        place: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "ha": "center"}
+        panel.annotate(subtitle, (0.5, 1.0), (0.0, 2.5), fontsize=6.5, color=GREY, va="bottom", **place)
+    both: dict[str, Any] = {"ax": axes[1:2] if style.narrow else axes[:2], "shrink": 0.5, "aspect": 40}
+    colour_bar(figure, HEIGHTS, height_limits, f"$u_{'xyz'[axis]}$  [mm]", **both)
+    last: dict[str, Any] = {"ax": axes[2], "shrink": 0.7, "aspect": 28}
+    colour_bar(figure, DIFFERENCES, difference_limits, "|$u$ − $u_{ref}$|  [mm]", **last)
+    note = "drawn at true scale" if scale == 1.0 else f"displacements drawn {scale:g} times as large"
     if style.titled or scale != 1.0:
-        title = plain(f"{scene.title or scene.name}  ({drawn})" if style.titled else drawn, longest=2 * LINE)
+        title = plain(f"{scene.title or scene.name}  ({note})" if style.titled else note, longest=2 * LINE)
         figure.suptitle(title, fontsize=max(8.0 * min(1.0, LINE / len(title)), 5.0))
     figure.draw_without_rendering()
-    for panel, (_, pixels) in zip(axes, shots, strict=True):
+    for panel, (_, pixels) in zip(axes, images, strict=True):
         place_labels(panel, pixels, list(scene.probes))
     return figure
 
 
 def exaggeration(scene: Scene, solutions: list[Solution]) -> float:
-    """1, or the round number by which displacements too small to see are enlarged."""
+    """Return the factor of drawn displacements: 1, or a round number if they are too small to see."""
     plan = plan_mesh(scene, 16).points[:, :2]
     largest = max(float(np.abs(solution.displacement(plan)).max()) for solution in solutions)
     longer = max(scene.sheet.lengths)
     if largest == 0.0 or largest >= VISIBLE * longer:
         return 1.0
-    wanted = DRAWN * longer / largest
-    power = 10.0 ** np.floor(np.log10(wanted))
-    return float(max(step * power for step in (1, 2, 5) if step * power <= wanted))
+    factor = DRAWN * longer / largest
+    power = 10.0 ** np.floor(np.log10(factor))
+    return float(max(step * power for step in (1, 2, 5) if step * power <= factor))
 
 
 def _limits(values: np.ndarray) -> tuple[float, float]:
@@ -127,14 +127,14 @@ def _limits(values: np.ndarray) -> tuple[float, float]:
 
 
 def _elements(solution: Solution) -> int:
-    """Cells to mark along the shorter side: the solution's own where they are few enough to see."""
+    """Return the number of cells to mark along the shorter side: the solution's own, at most 16."""
     return min(np.min(solution.settings.get("elements", 16)), 16)
 
 
 def colour_bar(
     figure: Figure, colours: str | Colormap, limits: tuple[float, float], label: str, **place: Any
 ) -> None:
-    """A horizontal colour bar; place: as `Figure.colorbar` takes it."""
+    """Draw a horizontal colour bar; place: keywords of `Figure.colorbar`."""
     mapped = ScalarMappable(Normalize(*limits), colours)
     bar = figure.colorbar(mapped, orientation="horizontal", **place)
     bar.outline.set_visible(False)

@@ -1,4 +1,4 @@
-"""Whole displacements of a run over time, and the PVD/VTU series of them.
+"""Displacement fields of a run over time, and their PVD/VTU series.
 
 The axes of chains are lines; a file's point data `actuator` is 0 on the lattice and 1, 2, … on the axes, in
 the order of their edges in the scene.
@@ -20,10 +20,11 @@ from sheetbench.answers.solution import FieldMesh
 
 @dataclass(frozen=True)
 class Frame:
-    """One moment of a run, as far as drawing needs a solution: the mesh with its displacement.
+    """A run at one time, with the attributes of a solution that drawing needs: the mesh with its
+    displacement.
 
-    sample: takes that displacement and plan points (p, 2) [m] to displacements of the mid-surface (p, 3);
-    axes: rest places and displacements (p, 3) [m] of the points where the segments of each chain end.
+    sample: returns displacements of the mid-surface (p, 3) from the mesh's displacement and plan points
+    (p, 2) [m]; axes: rest positions and displacements (p, 3) [m] of the ends of each chain's segments.
     """
 
     mesh: FieldMesh
@@ -36,20 +37,20 @@ class Frame:
         return any(kind == "line" for kind, _ in self.mesh.cells)
 
     def with_axes(self) -> FieldMesh:
-        """Return the mesh with the axes, where there are some, as more points and lines."""
+        """Return the mesh with the axes of chains as additional points and lines."""
         if not self.axes:
             return self.mesh
         points, displacement, cells = [self.mesh.points], [self.mesh.point_data["displacement"]], []
-        of, first = [np.zeros(len(self.mesh.points), dtype=int)], len(self.mesh.points)
+        actuator, first = [np.zeros(len(self.mesh.points), dtype=int)], len(self.mesh.points)
         for number, (rest, u) in enumerate(self.axes, 1):
             points.append(rest)
             displacement.append(u)
-            of.append(np.full(len(rest), number))
+            actuator.append(np.full(len(rest), number))
             cells.append(
                 ("line", first + np.column_stack([np.arange(len(rest) - 1), np.arange(1, len(rest))]))
             )
             first += len(rest)
-        fields = {"displacement": np.concatenate(displacement), "actuator": np.concatenate(of)}
+        fields = {"displacement": np.concatenate(displacement), "actuator": np.concatenate(actuator)}
         return FieldMesh(np.concatenate(points), [*self.mesh.cells, *cells], fields)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
@@ -58,21 +59,21 @@ class Frame:
 
 
 def frames(history: History) -> list[tuple[float, Frame]]:
-    """Return time [s] and frame of every displacement that the run kept, none where it kept none."""
-    extra, found = history.extra, []
+    """Return time [s] and frame of every stored displacement field of a run."""
+    extra, out = history.extra, []
     for number, u in enumerate(extra.get("frames", ())):
         mesh = FieldMesh(extra["mesh"].points, extra["mesh"].cells, {"displacement": np.array(u)})
         axes = tuple((rest, over_time[number]) for rest, over_time in extra["axes"].values())
-        found.append((float(extra["frame_times"][number]), Frame(mesh, extra["sample"], axes)))
-    return found
+        out.append((float(extra["frame_times"][number]), Frame(mesh, extra["sample"], axes)))
+    return out
 
 
 def write_frames(path: Path, history: History) -> None:
     """Write a run's frames as NAME/0000.vtu … and the PVD file that lists them with their times [s]."""
-    inside = folder(path.with_suffix(""))
+    subfolder = folder(path.with_suffix(""))
     lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
     for number, (time, frame) in enumerate(frames(history)):
         name = f"{number:04d}.vtu"
-        write_mesh(inside / name, frame.with_axes())
-        lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{inside.name}/{name}"/>')
+        write_mesh(subfolder / name, frame.with_axes())
+        lines.append(f'    <DataSet timestep="{time!r}" part="0" file="{subfolder.name}/{name}"/>')
     write_text(path, "\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))

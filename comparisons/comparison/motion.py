@@ -1,7 +1,7 @@
-"""A scene's motion as the lattice and as a finite-element reference have it, side by side.
+"""Motion of a scene by the lattice, a finite-element reference and further models.
 
-The reference moves a second time on elements twice as large, and a third time with steps of about twice the
-length: the rows of its error bar (`comparisons.sweep.limits.motion_bar`).
+The reference is simulated again on elements twice as large, and with steps of about twice the length, for its
+error bar (`comparisons.sweep.limits.motion_bar`).
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
 from sheetbench.scenes import AnyScene, Scene, scene_of
 
-ELEMENTS = 8  # of a moving reference along the shorter side
-LONGER = 8.0  # error of a step: steps twice as long
+ELEMENTS = 8  # of a reference in motion along the shorter side
+LONGER = 8.0  # factor of the step error that doubles the steps
 
 
 def compare_motion(
@@ -42,52 +42,51 @@ def compare_motion(
     frames: int = 0,
     store: Path | None = None,
 ) -> MotionComparison:
-    """Move a scene's sheet for `duration` [s] with the lattice and with a reference, from rest.
+    """Simulate a scene for `duration` [s] from rest with the lattice, a reference and further models.
 
-    uncertainty: move the reference twice more, on elements twice as large and with steps twice as long.
-    every [s]: distance of samples. frames: whole displacements to keep. store: a folder in which every run of
-    ours has one to stream to and go on from.
-    Raises BadInput as `compare` and `simulate` do, and for a model that does not move the scene.
+    uncertainty: simulate the reference twice more for its error bar; every [s]: interval of samples; frames:
+    number of stored displacement fields; store: a folder from which interrupted runs resume. Raises BadInput
+    as `compare` and `simulate`, and for a model without motion of the scene.
     """
     scene = scene_of(scene)
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
-    beside = [parse(one) for one in models]
-    for one in (finest, *beside):
-        require_motion(scene, one)
-    model = resolve(scene, lattice, "motion")
+    further = [parse(spec) for spec in models]
+    for spec in (finest, *further):
+        require_motion(scene, spec)
+    lattice_model = resolve(scene, lattice, "motion")
 
-    def moved(of: Resolved[Any], doing: str, spacing: float | None, **settings: Any) -> History:
-        """A run, kept in a folder of its own by its settings where there is a store."""
-        if not isinstance(of.spec, External):
-            question = [scene.document(), duration, spacing, of.spec.model, of.settings, settings]
-            text = json.dumps(question, sort_keys=True, default=str)
-            kept = store and store / f"{of.spec.model}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
-            settings |= {"store": kept}
-        return simulate(of, duration, doing, every=spacing, **settings)
+    def run(model: Resolved[Any], doing: str, interval: float | None, **settings: Any) -> History:
+        """Simulate a model; with a store in a folder named by the settings."""
+        if not isinstance(model.spec, External):
+            key = [scene.document(), duration, interval, model.spec.model, model.settings, settings]
+            text = json.dumps(key, sort_keys=True, default=str)
+            name = f"{model.spec.model}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
+            settings |= {"store": store and store / name}
+        return simulate(model, duration, doing, every=interval, **settings)
 
-    own = moved(model, "simulating the lattice", every, frames=frames)
-    histories, spacing = {model.spec.model: own}, own.settings["every"]
-    for one in beside:
-        name = unlike(plugins.shown_name(one.model), (*histories, finest.kind))
-        histories[name] = moved(resolve(scene, one, "motion"), f"simulating the {name}", spacing)
-    named = f"simulating the {finest.kind}"
-    truth = moved(resolve(scene, finest), named, spacing, frames=frames)
+    first = run(lattice_model, "simulating the lattice", every, frames=frames)
+    histories, interval = {lattice_model.spec.model: first}, first.settings["every"]
+    for spec in further:
+        name = unlike(plugins.shown_name(spec.model), (*histories, finest.kind))
+        histories[name] = run(resolve(scene, spec, "motion"), f"simulating the {name}", interval)
+    doing = f"simulating the {finest.kind}"
+    truth = run(resolve(scene, finest), doing, interval, frames=frames)
     bars: dict[str, float | None] = {}
     if uncertainty and truth.succeeded:
         error = LONGER * truth.settings["error"]
-        longer = moved(resolve(scene, finest), f"{named} in longer steps", spacing, error=error)
-        rows, along = [moved_here(scene, finest, truth)], finest.counts(scene)
-        if min(along[:2]) > 1:
-            half = finest.but(count=(along[0] // 2, along[1] // 2))
-            run = moved(resolve(scene, half), f"{named} on larger elements", spacing)
-            rows.append(moved_here(scene, half, run))
+        longer = run(resolve(scene, finest), f"{doing} in longer steps", interval, error=error)
+        rows, counts = [moved_here(scene, finest, truth)], finest.counts(scene)
+        if min(counts[:2]) > 1:
+            half = finest.but(count=(counts[0] // 2, counts[1] // 2))
+            coarse = run(resolve(scene, half), f"{doing} on larger elements", interval)
+            rows.append(moved_here(scene, half, coarse))
         bars = motion_bar(rows, moved_here(scene, finest, longer))
     return MotionComparison(scene, {**histories, finest.kind: truth}, bars)
 
 
 def require_motion(scene: Scene, spec: Spec) -> None:
-    """Raise BadInput for a model that does not move the scene, or takes more memory than there is."""
+    """Raise BadInput for a model without motion of the scene, or one that needs more memory than is free."""
     import fem_reference
 
     resolve(scene, spec, "motion")

@@ -1,4 +1,4 @@
-"""A simulated scene: its history and frames of the whole sheet: `sheetbench simulate`."""
+"""A simulated scene with its history and displacement fields: the answer of `sheetbench simulate`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sheetbench.scenes import Scene
 
 @dataclass(frozen=True, repr=False, eq=False, kw_only=True)
 class Simulation(History):
-    """A run of a scene; animate: draw it moving."""
+    """A run of a scene; animate: make an animation."""
 
     file_name = "history"
     scene: Scene
@@ -25,19 +25,19 @@ class Simulation(History):
         return self.scene.name, self.scene.title, f"{self.label}, {self.integrator}, {self.steps} steps"
 
     def figures(self) -> tuple[Picture, ...]:
-        of = (self, self.scene.title or self.scene.name)
-        pictures = [Picture("history", "sheetbench.answers.history_figure:compose", of)]
+        arguments = (self, self.scene.title or self.scene.name)
+        pictures = [Picture("history", "sheetbench.answers.history_figure:compose", arguments)]
         if self.animate:
             film = "comparisons.comparison.animation:animate"
             pictures.append(Picture("animation", film, (self.scene, [self]), formats=FILM))
         return tuple(pictures)
 
     def files(self) -> dict[str, Write]:
-        """All samples, and the sheet at some moments."""
+        """Return the samples and the displacement fields."""
         return {**super().files(), "frames.pvd": partial(write_frames, history=self)}
 
     def result(self) -> str:
-        """Return the largest displacement of a probe on the way, or why the run ended early."""
+        """Return the largest displacement of a probe, or the reason for an early end."""
         largest = {name: float(abs(u).max()) for name, u in self.probes.items() if len(u)}
         if not largest or not self.succeeded:
             return super().result()

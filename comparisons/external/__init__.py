@@ -1,1 +1,1 @@
-"""External codes as models: CalculiX, Kratos, plug-ins and any executable. Nothing else needs them."""
+"""External codes as models: CalculiX, Kratos, plug-ins and any executable."""

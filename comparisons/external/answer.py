@@ -1,5 +1,5 @@
-"""An external finite-element code as cross-checks use it, and the base of those that are given a mesh here;
-those among the plug-ins, and which of them are installed.
+"""External finite-element codes: their protocol in cross-checks, a base class for codes that get a mesh here,
+and a search for the installed ones among the plug-ins.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ BRICK_MOMENTS = "loads on bricks do not follow the edge as a moment does"
 
 @runtime_checkable
 class ExternalCode(Model, Protocol):
-    """A plug-in around another program: its full name (`called`), what it needs to be installed, and the
-    numbers of elements along the shorter side, coarsest first, on which its convergence is measured."""
+    """A plug-in around another program. called: full name of the program; needs: the packages or programs to
+    install; meshes: numbers of elements along the shorter side on which its convergence is measured, coarsest
+    first."""
 
     called: str
     needs: str
@@ -33,12 +34,12 @@ class ExternalCode(Model, Protocol):
     layered: bool  # whether its elements are quadratic and have transverse shear, and so a layer at the edges
 
     def version(self) -> str | None:
-        """Return its version, None where it is not installed."""
+        """Return the program's version, None if it is not installed."""
         ...
 
 
 def require_count(elements: Any) -> None:
-    """Raise BadInput for what is no number of elements."""
+    """Raise BadInput if `elements` is not a positive whole number."""
     if type(elements) is not int or elements < 1:
         raise BadInput(f"elements = {elements!r}: a whole number along the shorter side, at least 1")
 
@@ -46,25 +47,25 @@ def require_count(elements: Any) -> None:
 def refusal(
     scene: Scene, chains: str, moments: str, laws: Collection[str] = (), drawn: Collection[str] = ()
 ) -> str:
-    """Return why an external code cannot solve a scene, "" if it can.
+    """Return the reason why an external code cannot solve a scene, "" if it can.
 
-    chains, moments: the reasons of this code against actuator chains and edge moments; laws: the laws of
-    rubber that it is given; drawn: the words of `Scene.drawn_by` that it knows.
+    chains, moments: reasons of the code against actuator chains and edge moments; laws: the rubber laws it
+    accepts; drawn: the features of `Scene.drawn_by` it accepts.
     """
-    unknown = [word for word in scene.drawn_by.split(", ") if word and word not in drawn]
-    if unknown:
-        known = "sheets without" if drawn else "isotropic whole rectangles that are the same all over"
-        return f"{', '.join(unknown)}: it is given {known}"
+    unsupported = [word for word in scene.drawn_by.split(", ") if word and word not in drawn]
+    if unsupported:
+        accepted = "sheets without" if drawn else "isotropic whole rectangles that are the same all over"
+        return f"{', '.join(unsupported)}: it is given {accepted}"
     if scene.obstacles:
         return "obstacles are not handed over"
     law = scene.material.law
     if law is not None and law not in laws:
-        known = (
+        accepted = (
             f"the laws passed to it are {', '.join(laws)}"
             if laws
             else "only linear materials are passed to it"
         )
-        return f"it is not given the material's law '{law}': {known}"
+        return f"it is not given the material's law '{law}': {accepted}"
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
         return chains
     if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
@@ -77,9 +78,9 @@ def refusal(
 
 
 class Reached(NamedTuple):
-    """What a code finds at rest: nodal displacement (n, 3) [m] at the last load factor that converged;
-    iterations; note: why it ended early, "" if it did not; seconds: of the solve alone; held: unknowns of the
-    mesh that supports take."""
+    """A static answer of a code: nodal displacement (n, 3) [m] at the last load factor that converged. note:
+    the reason for an early end, "" if there was none; seconds: time of the solve alone; held: number of
+    unknowns fixed by supports."""
 
     displacement: np.ndarray
     load_factor: float = 0.0
@@ -90,20 +91,20 @@ class Reached(NamedTuple):
 
 
 class Code(ExternalCode, ABC):
-    """Base of the external codes here: status, times and mesh of what a subclass finds."""
+    """Base class of external codes: makes a `Solution` from the `Reached` of a subclass."""
 
-    unknowns = 3  # of a node
+    unknowns = 3  # per node
 
     @abstractmethod
     def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
-        """Return why it cannot solve a scene, "" if it can."""
+        """Return the reason why the code cannot solve a scene, "" if it can."""
 
     @abstractmethod
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Any) -> Reached:
-        """Return what it finds of a scene that it does not refuse."""
+        """Solve a scene at rest that `refusal` accepts."""
 
     def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Any:
-        """Return the mesh, `Bricks` or alike. Raises BadInput without the code, or for bad settings."""
+        """Return the mesh, of bricks by default. Raises BadInput for a missing code or bad settings."""
         elements, layers, grading = (settings[name] for name in ("elements", "layers", "grading"))
         require_count(elements)
         if type(layers) is not int or layers < 2 or layers % 2:
@@ -113,20 +114,20 @@ class Code(ExternalCode, ABC):
         return Bricks.of(scene, elements, layers, grading)
 
     def require_installed(self) -> None:
-        """Raise BadInput where it is not installed."""
+        """Raise BadInput if the code is not installed."""
         if self.version() is None:
             raise BadInput(f"model = '{self.name}': needs {self.needs}")
 
     def solve(self, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-        """Return the static answer. Raises BadInput without the code or for settings it cannot use."""
-        began, mesh = perf_counter(), self.mesh(scene, settings)
+        """Return the static answer. Raises BadInput for a missing code or bad settings."""
+        start, mesh = perf_counter(), self.mesh(scene, settings)
         note = self.refusal(scene, settings)
-        still = np.zeros_like(mesh.positions)
-        found = Reached(still, note=note) if note else self.at_rest(scene, settings, mesh)
-        status = Status.CONVERGED if found.load_factor == 1.0 and not found.note else Status.DIVERGED
-        if not np.isfinite(found.displacement).all():
+        undeformed = np.zeros_like(mesh.positions)
+        reached = Reached(undeformed, note=note) if note else self.at_rest(scene, settings, mesh)
+        status = Status.CONVERGED if reached.load_factor == 1.0 and not reached.note else Status.DIVERGED
+        if not np.isfinite(reached.displacement).all():
             status = Status.NON_FINITE
-        displacement = np.nan_to_num(found.displacement)
+        displacement = np.nan_to_num(reached.displacement)
 
         def sample(points: np.ndarray) -> np.ndarray:
             nodes, weights = mesh.weights(points)
@@ -137,36 +138,36 @@ class Code(ExternalCode, ABC):
             label=f"{self.called} {mesh.label}",
             settings={**settings, "elements": list(mesh.counts)},
             status=Status.REFUSED if note else status,
-            unknowns=self.unknowns * len(still) - found.held,
-            iterations=found.iterations,
-            setup_seconds=perf_counter() - began - found.seconds,
-            solve_seconds=found.seconds,
+            unknowns=self.unknowns * len(undeformed) - reached.held,
+            iterations=reached.iterations,
+            setup_seconds=perf_counter() - start - reached.seconds,
+            solve_seconds=reached.seconds,
             sample=sample,
             reactions={},
             energies={},
             mesh=FieldMesh(mesh.positions, [(mesh.KIND, mesh.elements)], {"displacement": displacement}),
-            load_factor=found.load_factor,
-            remarks=(found.note,) if found.note else (),
+            load_factor=reached.load_factor,
+            remarks=(reached.note,) if reached.note else (),
         )
 
 
 def find_codes(names: Sequence[str] | None = None) -> dict[str, ExternalCode]:
-    """Return the external codes of these names, or `FILE.py:OBJECT`, by what selects them; unless given all
-    among the plug-ins that can be loaded, absent ones too.
+    """Return external codes by name or `FILE.py:OBJECT`; by default every code among the loadable plug-ins,
+    installed or not.
 
-    Raises BadInput for a name that is no external code's, and for a named code that is not installed.
+    Raises BadInput for a name that belongs to no external code, and for a named code that is not installed.
     """
-    found: dict[str, Any] = {}
+    models: dict[str, Any] = {}
     for name in plugins.names() if names is None else names:
         if names is not None and plugins.from_file(name) is None:
             require_choice("--judges", name, find_codes())
         with suppress(BadInput) if names is None else nullcontext():
-            found[name] = plugins.plugin(name)
+            models[name] = plugins.plugin(name)
     if names is None:
-        return {name: code for name, code in found.items() if isinstance(code, ExternalCode)}
-    for name, code in found.items():
+        return {name: code for name, code in models.items() if isinstance(code, ExternalCode)}
+    for name, code in models.items():
         if not isinstance(code, ExternalCode):
             raise BadInput(f"--judges = '{name}': no external code, it has no meshes or no version()")
         if code.version() is None:
             raise BadInput(f"--judges = '{name}': needs {code.needs}")
-    return found
+    return models

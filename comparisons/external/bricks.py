@@ -1,15 +1,15 @@
-"""A mesh of a sheet of 20-node bricks, with its supports and loads, for programs that solve solids.
+"""A sheet as a mesh of 20-node bricks, with its supports and loads, for programs that solve solids.
 
-The plan mesh of the shell (`fem_reference.surface.mesh`), extruded: nodes lie at corners and mid-edges of
-layers of bricks, an even number, so that the mid-surface is a plane of eight-node faces. A column is the
-nodes over one plan node; its middle node is the mid-surface.
-Held is what a shell's support holds (`scenes.objects.supports`): at a clamp every column keeps to its
-director and may stretch along it, at a hinge the mean of the column alone is held: a line of nodes gives
-way in a solid without end as bricks get smaller. A column may have axes of its own, turned as
-`sheetbench.scenes.meaning.kinematics` turns the edge.
+The shell's plan mesh (`fem_reference.surface.mesh`) is extruded: nodes lie at corners and mid-edges of
+layers of bricks. The number of layers is even, so that the mid-surface is a plane of eight-node faces. A
+column consists of the nodes over one plan node; its middle node lies in the mid-surface.
+Supports hold a shell's motions (`scenes.objects.supports`). At a clamp every column stays on its director and
+may stretch along it. At a hinge only the mean of a column is held, because the deflection of a solid that is
+held along a line of nodes grows without bound as bricks get smaller. The axes of a column follow the rotation
+of its edge (`sheetbench.scenes.meaning.kinematics`).
 
-Numbering in an element is that of Abaqus, CalculiX and VTK: corners below, corners above, mid-edges below,
-above, upright. SI units. Beside the plan nothing is shared with our own solid.
+Nodes of an element are numbered as in Abaqus, CalculiX and VTK: corners below, corners above, mid-edges
+below, above, upright. SI units. The plan mesh is the only part shared with the solid of `fem_reference`.
 """
 
 from __future__ import annotations
@@ -44,14 +44,14 @@ from sheetbench.scenes.objects.supports import AnySupport, place
 
 GRADINGS = ("edges", "uniform")
 SITES = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0)])  # of a face's nodes
-OTHER_WAY = [0, 3, 2, 1, 7, 6, 5, 4]
+REVERSED = [0, 3, 2, 1, 7, 6, 5, 4]  # a face's nodes in the opposite sense of rotation
 
 
 @dataclass(frozen=True)
 class Bricks:
-    """plan: straight-sided or biquadratic; counts: elements along x and y that were requested; z
-    (2 layers + 1,): heights of a column's nodes [m]; taper (p,): by how much thicker the column over each
-    plan node is."""
+    """The mesh of bricks. plan: straight-sided or biquadratic; counts: requested elements along x and y; z (2
+    layers + 1,): heights of a column's nodes [m]; taper (p,): thickness over each plan node divided by the
+    sheet's thickness."""
 
     plan: MeshQuad
     counts: tuple[int, int]
@@ -62,7 +62,8 @@ class Bricks:
 
     @classmethod
     def of(cls, scene: Scene, elements: int, layers: int, grading: str) -> Bricks:
-        """elements: as those of the shell; grading "edges": finest there, where the mesh is one of lines."""
+        """Extrude the shell's plan mesh. elements: number along the shorter side; grading "edges": finest at
+        the edges, for meshes made of lines along x and y."""
         counts = divisions(scene.sheet, elements)
         plan = mesh_of(scene, counts, grading == "edges" and has_lines(scene))
         heights = np.linspace(-0.5, 0.5, 2 * layers + 1) * scene.sheet.thickness
@@ -71,12 +72,12 @@ class Bricks:
 
     @property
     def layers(self) -> int:
-        """Bricks through the thickness; the level of the mid-surface too, of 2 · layers + 1."""
+        """Number of bricks through the thickness; also the index of the mid-surface among the node levels."""
         return len(self.z) // 2
 
     @property
     def label(self) -> str:
-        """How many bricks there are, in words."""
+        """The number of bricks in words."""
         count = self.plan.nelements
         plan = self.counts if np.prod(self.counts) == count else (count,)
         return f"{' × '.join(map(str, (*plan, self.layers)))} bricks"
@@ -86,16 +87,16 @@ class Bricks:
         """Plan nodes of the elements (m, 8), corners and then mid-edges, counter-clockwise."""
         plan = plan_of(self.plan)
         upright = orientation(plan.corners)[:, None] > 0
-        return np.where(upright, plan.elements[:, :8], plan.elements[:, OTHER_WAY])
+        return np.where(upright, plan.elements[:, :8], plan.elements[:, REVERSED])
 
     @cached_property
     def number(self) -> np.ndarray:
-        """Of the node on every level of the columns (p, 2 layers + 1), −1 where there is none."""
-        there = np.zeros((len(plan_of(self.plan).nodes), len(self.z)), dtype=bool)
-        there[self.faces[:, :4]] = True
-        there[self.faces[:, 4:], ::2] = True
-        out = np.full(there.shape, -1)
-        out[there] = np.arange(there.sum())
+        """Node numbers by column and level (p, 2 layers + 1), −1 where a level has no node."""
+        exists = np.zeros((len(plan_of(self.plan).nodes), len(self.z)), dtype=bool)
+        exists[self.faces[:, :4]] = True
+        exists[self.faces[:, 4:], ::2] = True
+        out = np.full(exists.shape, -1)
+        out[exists] = np.arange(exists.sum())
         return out
 
     @cached_property
@@ -105,13 +106,13 @@ class Bricks:
 
     @cached_property
     def positions(self) -> np.ndarray:
-        """(n, 3) [m]."""
+        """Positions of the nodes (n, 3) [m]."""
         column, level = self.sites.T
         return np.column_stack([plan_of(self.plan).nodes[column], self.z[level] * self.taper[column]])
 
     @cached_property
     def elements(self) -> np.ndarray:
-        """Nodes of the bricks (layers m, 20), those of the lowest layer first."""
+        """Nodes of the bricks (layers m, 20), the lowest layer first."""
         corners, middles = self.faces[:, :4], self.faces[:, 4:]
         layers = [
             [self.number[part, level] for part, level in parts]
@@ -120,10 +121,10 @@ class Bricks:
                 [(corners, low), (corners, low + 2), (middles, low), (middles, low + 2), (corners, low + 1)]
             ]
         ]
-        return np.concatenate([np.concatenate(one, axis=1) for one in layers])
+        return np.concatenate([np.concatenate(parts, axis=1) for parts in layers])
 
     def inside(self, shape: Shape | None) -> np.ndarray:
-        """Elements of the plan (k,) in a shape, or all."""
+        """Plan elements (k,) inside a shape, all of them without a shape."""
         return plan_of(self.plan).within(shape)
 
     def edge(self, name: str) -> np.ndarray:
@@ -144,16 +145,16 @@ class Bricks:
         return [np.roll(column, -(len(column) // 2)) for column in columns]
 
     def mean(self, column: np.ndarray) -> np.ndarray:
-        """Weights of a column's nodes in the mean through the thickness: Simpson's rule where it has nodes
-        between the layers' planes, else the trapezoidal one."""
+        """Weights of a column's nodes in the mean through the thickness: Simpson's rule for columns with
+        nodes inside the layers, the trapezoidal rule for the others."""
         steps = self.sites[column, 1]
         inside = np.where(steps % 2 == 1, 4.0, 2.0)
         rule = np.where(np.isin(steps, (0, steps.max())), 1.0, inside)
         return np.asarray(rule / rule.sum())
 
     def sides(self, load: EdgeLoad) -> tuple[np.ndarray, np.ndarray]:
-        """Eight nodes of every brick's face that a load acts on (f, 8), corners and then mid-edges, and the
-        faces' areas (f,) over the thickness [m]."""
+        """Nodes of the loaded side faces of bricks (f, 8), corners and then mid-edges; and the faces' areas
+        divided by the thickness (f,) [m]."""
         on = facets_on(self.plan, load)
         (first, last), middle = self.plan.facets[:, on], self.plan.nvertices + on
         faces = [
@@ -166,7 +167,7 @@ class Bricks:
         return np.concatenate(faces), np.tile(lengths / self.layers, self.layers)
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Nodes of the mid-surface's faces at plan points (p, 2) [m], and their shape functions, (p, 8)."""
+        """Return nodes and shape functions (p, 8) of mid-surface faces at plan points (p, 2) [m]."""
         element, place = locate(self.plan, points)
         return self.number[plan_of(self.plan).elements[element, :8], self.layers], serendipity(*place)
 
@@ -182,9 +183,9 @@ class Tie:
 
 @dataclass(frozen=True)
 class Held:
-    """Components of the nodes' displacement along their axes (n, 3, 3), one a row: which are fixed (n, 3),
-    and at what (n, 3) [m]; `tied`: the means of columns at hinges; `turned`: whether a node's axes are not
-    x, y and z (n,)."""
+    """Supported components of the nodes' displacement. axes (n, 3, 3): a node's axes, one per row; fixed (n,
+    3): whether a component along an axis is prescribed; value (n, 3): its prescribed displacement [m]; tied:
+    constraints on column means at hinges; turned (n,): whether a node's axes differ from x, y, z."""
 
     axes: np.ndarray
     fixed: np.ndarray
@@ -197,7 +198,7 @@ class Held:
 
 
 def held(scene: Scene, bricks: Bricks) -> Held:
-    """Return what supports and motions hold."""
+    """Return the displacements prescribed by supports and edge motions."""
     n = len(bricks.positions)
     axes, fixed, value = np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 3), dtype=bool), np.zeros((n, 3))
     middle = bricks.sites[:, 1] == bricks.layers
@@ -225,7 +226,7 @@ def held(scene: Scene, bricks: Bricks) -> Held:
 
 
 def materials(scene: Scene, bricks: Bricks) -> list[tuple[Material, np.ndarray]]:
-    """The materials of a sheet, and the elements of the plan (k,) that are of each."""
+    """Return the materials of a sheet, each with its plan elements (k,)."""
     plan = plan_of(bricks.plan)
     middles = plan.nodes[plan.elements[:, 8]]
     patched = [patch.shape.contains(middles) for patch in scene.patches]
@@ -236,19 +237,19 @@ def materials(scene: Scene, bricks: Bricks) -> list[tuple[Material, np.ndarray]]
 
 
 def _material(scene: Scene, inside: Sequence[bool]) -> Material:
-    """What the sheet is made of in some of its patches."""
-    own: dict[str, Any] = {}
-    for patch in (patch for patch, there in zip(scene.patches, inside, strict=True) if there):
-        own |= patch.own
-    own.pop("thickness", None)
-    if scene.material.kind == "orthotropic" and "young" in own:
-        return Material(**{"density": scene.material.density, **own})
-    return scene.material.replace(**own)
+    """Return the material at a place; inside: which of the scene's patches cover it."""
+    changes: dict[str, Any] = {}
+    for patch in (patch for patch, covers in zip(scene.patches, inside, strict=True) if covers):
+        changes |= patch.own
+    changes.pop("thickness", None)
+    if scene.material.kind == "orthotropic" and "young" in changes:
+        return Material(**{"density": scene.material.density, **changes})
+    return scene.material.replace(**changes)
 
 
 def forces(scene: Scene, bricks: Bricks) -> np.ndarray:
-    """Point, edge and area loads and the payloads' weight on the nodes (n, 3) [N]; of the sheet's weight and
-    of pressure nothing."""
+    """Return nodal forces (n, 3) [N] of point, edge and area loads and of the payloads' weight, without the
+    sheet's weight and pressure."""
     out = point_loads(scene, bricks)
     plan = plan_of(bricks.plan)
     for load in (*scene.loads, *weights(scene)):
@@ -268,7 +269,7 @@ def forces(scene: Scene, bricks: Bricks) -> np.ndarray:
 
 
 def serendipity(r: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Shape functions (n, 8) of the eight-node square at points of [−1, 1]²."""
+    """Return the shape functions (n, 8) of the eight-node square at points of [−1, 1]²."""
     (a, b), r, s = SITES.T, r[:, None], s[:, None]
     corner = 0.25 * (1 + a * r) * (1 + b * s) * (a * r + b * s - 1)
     middle = 0.5 * np.where(a == 0, (1 - r**2) * (1 + b * s), (1 + a * r) * (1 - s**2))
@@ -276,8 +277,7 @@ def serendipity(r: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 
 def point_loads(scene: Scene, mesh: Any) -> np.ndarray:
-    """Forces on the nodes (n, 3) [N] of a mesh with `positions` and `weights`, of bricks or not, the weight
-    of payloads at points among them."""
+    """Return nodal forces (n, 3) [N] of point loads and point payloads, for any mesh with `weights`."""
     out = np.zeros_like(mesh.positions)
     for load in (*scene.loads, *weights(scene)):
         if isinstance(load, PointLoad):

@@ -1,4 +1,4 @@
-"""How much memory this process may still take: of the machine, of its control group, of its own limit."""
+"""Memory that this process may still take, by the machine, its control groups and its own limit."""
 
 from __future__ import annotations
 
@@ -10,41 +10,41 @@ from contextlib import suppress
 from pathlib import Path
 
 ROOT = Path("/")  # of the system's own files
-UNLIMITED = 2**60  # bytes; limits beyond are none
+UNLIMITED = 2**60  # bytes; larger limits count as none
 
 
 def available() -> int | None:
-    """Bytes, None where the system does not tell."""
-    rooms = (_of_machine(), _of_address_space(), *_of_groups())
-    known = [room for room in rooms if room is not None and room < UNLIMITED]
-    return max(0, min(known)) if known else None
+    """Return the available memory in bytes, None if the system does not report it."""
+    amounts = (_of_machine(), _of_address_space(), *_of_groups())
+    limits = [amount for amount in amounts if amount is not None and amount < UNLIMITED]
+    return max(0, min(limits)) if limits else None
 
 
 def _of_machine() -> int | None:
-    """Return what is free or can be freed."""
+    """Return the machine's free or reclaimable memory [bytes]."""
     if (free := _amount(_text("proc/meminfo"), r"MemAvailable:\s+(\d+) kB")) is not None:
         return 1024 * free
-    try:  # macOS tells how much there is
+    try:  # macOS reports the whole memory
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (ValueError, OSError, AttributeError):
         return None
 
 
 def _of_address_space() -> int | None:
-    """Return what `ulimit -v` leaves."""
+    """Return the address space left below `ulimit -v` [bytes]."""
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit == resource.RLIM_INFINITY:
         return None
-    taken = _amount(_text("proc/self/status"), r"VmSize:\s+(\d+) kB") or 0
-    return limit - 1024 * taken
+    used = _amount(_text("proc/self/status"), r"VmSize:\s+(\d+) kB") or 0
+    return limit - 1024 * used
 
 
 def _of_groups() -> Iterator[int | None]:
-    """Return what every control group that holds this process leaves, of version 2 and 1."""
+    """Return the memory left [bytes] in each control group of this process, of versions 2 and 1."""
     for line in _text("proc/self/cgroup").splitlines():
         _, controllers, name = line.split(":", 2)
-        inside = Path(name.lstrip("/"))
-        for at in (inside, *inside.parents):
+        group = Path(name.lstrip("/"))
+        for at in (group, *group.parents):
             if not controllers:
                 folder = ROOT / "sys/fs/cgroup" / at
                 yield _left(folder, "memory.max", "memory.current", r"^inactive_file (\d+)")
@@ -55,7 +55,7 @@ def _of_groups() -> Iterator[int | None]:
 
 
 def _left(folder: Path, limit: str, usage: str, cached: str) -> int | None:
-    """Return the limit less what is in use, but for pages of files, which are given back when needed."""
+    """Return a group's limit minus its use [bytes]; cached pages of files do not count as used."""
     most, used = (_amount(_text(folder / name), r"(\d+)") for name in (limit, usage))
     if most is None or used is None:
         return None
@@ -69,5 +69,5 @@ def _text(path: str | Path) -> str:
 
 
 def _amount(text: str, pattern: str) -> int | None:
-    found = re.search(pattern, text, re.MULTILINE)
-    return int(found.group(1)) if found else None
+    match = re.search(pattern, text, re.MULTILINE)
+    return int(match.group(1)) if match else None

@@ -1,4 +1,4 @@
-"""What another code prints, run in a folder of its own; why it has no answer in a clause."""
+"""Output of another program that runs in a folder of its own, or the reason for its failure."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from sheetbench.process import ONE_THREAD, run
 
 
 class Failed(Exception):
-    """The program has no answer; the message says in a clause what happened."""
+    """The program has no answer; the message is the reason as a clause."""
 
 
 def output_of(command: Sequence[str], folder: Path, limit: float, fine: Collection[int] = (0,)) -> str:
-    """Return what a program prints, run in a folder on one thread.
+    """Run a program in a folder on one thread and return its output.
 
-    Raises Failed where it takes longer than `limit` [s], cannot be started, or ends with an exit status that
-    is not `fine`, with the last line that speaks of an error.
+    Raises Failed if it takes longer than `limit` [s], cannot be started, or ends with an exit status that
+    is not in `fine`; the message quotes the last output line that contains "error".
     """
     try:
         ended = run(command, b"", limit, folder=folder, variables=ONE_THREAD)

@@ -1,17 +1,17 @@
-"""Models from outside: any simulator that answers a static scene can stand in the tables and on the front.
+"""External models: any simulator that answers a static scene can appear in the tables and on the front.
 
-A plug-in is an object with a name, its default settings, and `solve(scene, settings)`. It is requested as a
-file, `FILE.py:OBJECT`, where OBJECT is that object or a class of it, MODEL by default; or by its name, which
-a package offers under the entry-point group `sheetbench.models`:
+A plug-in is an object with a name, its default settings, and `solve(scene, settings)`. It is selected as a
+file, `FILE.py:OBJECT`, where OBJECT is the plug-in or its class, MODEL by default; or by the name under which
+a package offers it in the entry-point group `sheetbench.models`:
 
     [project.entry-points."sheetbench.models"]
     mine = "my_package.my_module:MODEL"
 
 or as a program, `exec:PATH` (`comparisons.external.program`).
 
-`settings` holds the defaults overridden by what the user asks (plain JSON data), and nothing that the
-defaults do not name, unless the model `takes_any`. What `solve` raises as ValueError is bad input; a solve
-that does not get there says so in its Solution's status. docs/plugin.py is a short one.
+`settings` holds the defaults overridden by the user's values (plain JSON data), and no other keys unless the
+model has `takes_any`. A ValueError raised by `solve` counts as bad input; a solve that does not converge
+reports this in its Solution's status. docs/plugin.py is a short example.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ OURS = {  # external codes that come with this package
     "calculix": "comparisons.external.calculix.model:MODEL",
     "kratos": "comparisons.external.kratos.model:MODEL",
 }
-OBJECT = "MODEL"  # what of a file is the model, by default
+OBJECT = "MODEL"  # default name of the model in a file
 OWN = (
     "A model of your own is named as FILE.py:CLASS, see docs/plugin.py, as exec:PROGRAM, see docs/strip.sh, "
     "or installed with an entry point"
@@ -49,7 +49,7 @@ OWN = (
 
 @runtime_checkable
 class Model(Protocol):
-    """A model of one's own."""
+    """A model outside this package."""
 
     @property
     def name(self) -> str: ...
@@ -64,28 +64,26 @@ class Model(Protocol):
 
 @runtime_checkable
 class MovingModel(Model, Protocol):
-    """One that answers motions too."""
+    """An external model that also simulates motion."""
 
     def simulate(
         self, scene: Scene, settings: Mapping[str, Any], duration: float, *, every: float
     ) -> History:
-        """The motion over `duration` [s] from rest, sampled every so often [s], the start too."""
+        """Return the motion over `duration` [s] from rest, sampled at 0 and then at intervals `every` [s]."""
         ...
 
 
 def names() -> list[str]:
-    """Names of the installed plug-ins."""
-    return sorted(_found())
+    """Return the names of the installed plug-ins."""
+    return sorted(_entry_points())
 
 
 def plugin(name: str) -> Model:
-    """Return the plug-in of a name, or of `FILE.py:OBJECT`.
-
-    Raises BadInput if it cannot be loaded, is not a `Model`, or has a name that no file can have.
-    """
+    """Return the plug-in of a name or of `FILE.py:OBJECT`. Raises BadInput if it cannot be loaded, is not a
+    `Model`, or has a name that is no valid file name."""
     try:
-        model = _loaded(name)
-    except (Exception, SystemExit) as error:  # whatever it does on import, the user learns whose it is
+        model = _load(name)
+    except (Exception, SystemExit) as error:  # any fault on import is reported with the plug-in's name
         raise BadInput(f"model = '{name}': the plug-in cannot be loaded: {foreign(error)}") from None
     if not isinstance(model, Model):
         raise BadInput(f"model = '{name}': the plug-in lacks a name, settings or solve(scene, settings)")
@@ -95,7 +93,7 @@ def plugin(name: str) -> Model:
 
 
 def moving(name: str) -> MovingModel:
-    """The plug-in of a name. Raises BadInput for one that has no motion, and as `plugin` does."""
+    """Return a plug-in that simulates motion. Raises BadInput for one without `simulate`, and as `plugin`."""
     model = plugin(name)
     if not isinstance(model, MovingModel):
         raise BadInput(f"{name}: has no motion: it lacks simulate(scene, settings, duration, every=…)")
@@ -103,69 +101,67 @@ def moving(name: str) -> MovingModel:
 
 
 def from_file(name: str) -> Path | None:
-    """Return the file of a model `FILE.py:OBJECT`, None of any other name."""
+    """Return the file of a model `FILE.py:OBJECT`, None for any other name."""
     file, colon, _ = name.rpartition(":")
     return Path(file) if colon and file.endswith(".py") else None
 
 
 def is_program(name: str) -> bool:
-    """Return whether a model is a program."""
+    """Return whether a model's name stands for a program."""
     return name.startswith(PREFIX)
 
 
 def is_outside(name: str) -> bool:
-    """Return whether a model is requested as a file or a program, and not by the name that it is installed
-    under."""
+    """Return whether a model is selected as a file or a program, and not by an installed name."""
     return is_program(name) or from_file(name) is not None
 
 
 def shown_name(name: str) -> str:
-    """Return what tables call a model: its plug-in's own name where it was requested as a file or a
-    program."""
+    """Return a model's name in tables: for a file or a program, the plug-in's own name."""
     return plugin(name).name if is_outside(name) else name
 
 
 def digest(name: str) -> str | None:
-    """Of a plug-in's Python files or its program, and of its distribution's name and version where it is
-    installed: with another digest it is another model. None of a model that is no plug-in."""
+    """Return a digest that identifies a plug-in's version, None for a model that is no plug-in. The digest is
+    made from its Python files or its program, and from name and version of its distribution."""
     if is_program(name):
         return Program(name.removeprefix(PREFIX)).digest()
     if (file := from_file(name)) is not None:
         return _digest(_files_of(file))
-    if (entry := _found().get(name)) is None:
+    if (entry := _entry_points().get(name)) is None:
         return None
     installed = [entry.dist.name, entry.dist.version] if entry.dist is not None else []
     return _digest(_files_of_module(entry.module), *installed)
 
 
 def answer(model: Model, scene: Scene, settings: Mapping[str, Any]) -> Solution:
-    """Return the plug-in's answer. Raises BadInput where it does instead, or would end this process."""
+    """Return the plug-in's answer. Raises BadInput if the plug-in raises it or tries to end this process."""
     try:
         return model.solve(scene, settings)
-    except SystemExit as leaving:
-        raise BadInput(f"{model.name}: the plug-in ends the program, SystemExit({leaving.code})") from None
+    except SystemExit as error:
+        raise BadInput(f"{model.name}: the plug-in ends the program, SystemExit({error.code})") from None
 
 
-def _loaded(name: str) -> Any:
-    """Return the object that a name or file stands for; a class is called."""
+def _load(name: str) -> Any:
+    """Return the plug-in of a name, file or program; a class is instantiated."""
     if is_program(name):
         return Program(name.removeprefix(PREFIX))
     if from_file(name) is not None:
-        return _of_file(name)
-    found = _found()[name].load()
-    return found() if isinstance(found, type) else found
+        return _load_from_file(name)
+    model = _entry_points()[name].load()
+    return model() if isinstance(model, type) else model
 
 
 @cache
-def _of_file(name: str) -> Any:
-    """Return the object of `FILE.py:OBJECT`, the same throughout a process."""
-    file, _, wanted = name.rpartition(":")
-    found = getattr(_module(Path(file)), wanted)
-    return found() if isinstance(found, type) else found
+def _load_from_file(name: str) -> Any:
+    """Return the plug-in of `FILE.py:OBJECT`, loaded once per process."""
+    file, _, object_name = name.rpartition(":")
+    model = getattr(_module(Path(file)), object_name)
+    return model() if isinstance(model, type) else model
 
 
 def _module(file: Path) -> ModuleType:
-    """Return the file as a module, which may import what lies beside it."""
+    """Return a file as a module, which may import modules of its own folder."""
     spec = spec_from_file_location(f"sheetbench_plugin_{file.stem}", file)
     if spec is None or spec.loader is None:
         raise BadInput(f"{file}: not a Python file")
@@ -178,8 +174,7 @@ def _module(file: Path) -> ModuleType:
 
 
 def settings_of(model: Model, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the model's defaults overridden by the request. Raises BadInput for a setting it does not
-    have."""
+    """Return the model's settings, defaults overridden by the given. Raises BadInput for an unknown one."""
     unknown = [key for key in given if key not in model.settings]
     if unknown and not getattr(model, "takes_any", False):
         known = ", ".join(model.settings) or "none"
@@ -188,24 +183,23 @@ def settings_of(model: Model, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 @cache
-def _found() -> dict[str, EntryPoint]:
+def _entry_points() -> dict[str, EntryPoint]:
     ours = {name: EntryPoint(name, value, GROUP) for name, value in OURS.items()}
     return {entry.name: entry for entry in entry_points(group=GROUP)} | ours
 
 
 def _files_of(file: Path) -> dict[str, Path]:
-    """Return a file and what it imports from its own folder, modules and packages, by their paths in
-    there."""
+    """Return a file and the modules and packages it imports from its own folder, by their paths there."""
     folder = file.resolve().parent
     finder = ModuleFinder(path=[str(folder)])
     with suppress(SyntaxError, ValueError):  # reported when it is loaded
         finder.run_script(str(file.resolve()))
-    found = [Path(at) for module in finder.modules.values() if (at := getattr(module, "__file__", None))]
-    return {path.relative_to(folder).as_posix(): path for path in {file.resolve(), *found}}
+    imported = [Path(at) for module in finder.modules.values() if (at := getattr(module, "__file__", None))]
+    return {path.relative_to(folder).as_posix(): path for path in {file.resolve(), *imported}}
 
 
 def _files_of_module(name: str) -> dict[str, Path]:
-    """Return the package that an installed module is in, or the module alone, as `_files_of` does."""
+    """Return the files of an installed module's package, or of the module alone, by path as `_files_of`."""
     spec = find_spec(name.partition(".")[0])
     if spec is None or spec.origin is None:
         return {}
@@ -217,6 +211,6 @@ def _files_of_module(name: str) -> dict[str, Path]:
 
 
 def _digest(files: Mapping[str, Path], *more: str) -> str:
-    """Return what follows from the files' names and contents, and from more texts."""
+    """Return a digest of the files' names and contents, and of further texts."""
     lines = [f"{name} {sha256(path.read_bytes()).hexdigest()}" for name, path in sorted(files.items())]
     return sha256("\n".join([*more, *lines]).encode()).hexdigest()

@@ -41,6 +41,7 @@ import numpy as np
 
 from comparisons.identification import residuals as remarks
 from comparisons.identification.answer import Identification
+from comparisons.identification.field import SUFFIX, FieldIdentification, identify_field
 from comparisons.identification.fit import Fit, Nearest, nearest
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
 from comparisons.identification.model import NotReached, lattice_model, reference_model
@@ -147,8 +148,9 @@ def identify(
     offset: float = 0.0,
     uncertainty: float | None = None,
     refine: bool = True,
-) -> Identification:
-    """Return the unknowns of these names, from measurements or a file of them (`measurements.read`).
+) -> Identification | FieldIdentification:
+    """Return the unknowns of these names, from measurements or a file of them (`measurements.read`); of
+    young=field, thickness=field or density=field that of every cell (`field`).
 
     Unless the lattice has a grid, cells become smaller until the grid moves the unknowns less than the noise
     does; its grading may be "auto", by the scene's own values. elements: of a reference; law: its law of
@@ -164,6 +166,11 @@ def identify(
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
     measured = _on_sheet(_with_deviation(measured, uncertainty), scene)
     names = items(unknown) if isinstance(unknown, str) else unknown
+    if fields := [name for name in names if name.endswith(SUFFIX)]:
+        if model != Lattice.NAME or len(names) > 1:
+            raise BadInput(f"unknown = '{fields[0]}': a field alone, of the lattice")
+        chosen = resolve(scene, lattice, own=False)
+        return identify_field(chosen, measured, fields[0].removesuffix(SUFFIX))
     unknowns = tuple(unknown_of(scene, name) for name in names)
     reference = None
     of_reference = {"elements": elements, "law": law}

@@ -40,10 +40,23 @@ STILL = 0.1  # of the largest displacement: what may move at time 0, as noise
 
 @dataclass(frozen=True)
 class Displacements:
-    """points: (n, 2) [m] of the flat sheet; displacement: (n, 3) [m], nan where not measured; time: (n,) [s]
-    of each row, or None for an equilibrium; source: where they come from, to be named in a refusal; lines: of
-    the file that each row was read from; deviation: the standard deviation (n,) [m] of each row's numbers,
-    None where it is not known."""
+    """Measured displacements of a sheet, a row each.
+
+    Parameters
+    ----------
+    points : ndarray, (n, 2) [m]
+        Plan points of the flat sheet.
+    displacement : ndarray, (n, 3) [m]
+        Displacements, nan for components that were not measured.
+    time : ndarray, (n,) [s], optional
+        Time of each row, None for an equilibrium.
+    source : str, optional
+        Origin of the numbers, named in refusals.
+    lines : tuple of str, optional
+        Lines of the file by row.
+    deviation : ndarray, (n,) [m], optional
+        Standard deviation of each row's numbers, None if unknown.
+    """
 
     points: np.ndarray
     displacement: np.ndarray

@@ -1,9 +1,10 @@
 """The model that is fitted: what it has at the measured points, and its slopes by the unknowns.
 
-statics through the lattice     exact derivatives (`lumped.sensitivity`)
-statics through a reference     central differences of whole solutions
-motion from rest                central differences of whole runs, of the lattice or of a reference, cubic in
-                                time between samples
+statics                         derivatives of the equilibrium, a solution with its factors each; of the
+                                solid, which has none, central differences of whole solutions
+motion from rest                derivatives along the run of a lattice that touches nothing and has no chains,
+                                by what leaves its supports alone; else central differences of whole runs;
+                                cubic in time between samples
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,16 +23,15 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
 from sheetbench.answers.history import History
-from sheetbench.answers.solution import Status
+from sheetbench.answers.solution import Solution, Status
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grading import as_settings
 
-if TYPE_CHECKING:
-    from lumped import Calibration
-
 STATIC_STEP = 1e-3  # in x, for differences of solutions that are accurate to about 1e-9
 MOTION_STEP = 1e-2  # in x, for differences of runs, accurate to about 1e-5
+FOLLOWED_ERROR = 1e-6  # of the step of a lattice whose run has the derivatives
+OF_SUPPORTS = ("tilt_", "curvature_", "support", "actuator")
 MOTION_ERROR = 1e-7  # of a lattice's step, which changes with the unknowns: differences must not see it
 STEPS_PER_PERIOD = 100  # of a reference, fixed: frequencies within (2π/100)²/12, E within twice that, 0.07 %
 
@@ -70,27 +70,12 @@ def lattice_model(scene: Scene, requested: Lattice) -> Model:
     chosen = resolve(scene, requested, own=False)
     grading = fixed(chosen.spec.grading) or lines_on_shapes(scene, chosen.grid, chosen.spec)
 
-    def springs(here: Scene) -> Calibration:
-        return chosen.on(here).springs
+    def run(here: Scene, end: float, names: Sequence[str] = ()) -> History:
+        error = FOLLOWED_ERROR if names else MOTION_ERROR
+        return lumped.simulate(here, chosen.on(here).springs, end, error=error, sensitivities=names)
 
-    def run(here: Scene, end: float) -> History:
-        return lumped.simulate(here, springs(here), end, error=MOTION_ERROR)
-
-    def predict(
-        unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray, time: np.ndarray | None
-    ) -> Prediction:
-        if time is not None:
-            return _by_differences(scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
-        here, names = set_in(scene, unknowns, x), [u.name for u in unknowns]
-        try:
-            found = lumped.sensitivity(here, springs(here), names, points, springs)
-        except (BadInput, NoEquilibrium) as error:
-            raise NotReached(str(error)) from None
-        slopes = [found.derivatives[u.name] * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
-        return Prediction(found.displacement, slopes)
-
-    settings = {**chosen.settings, **as_settings(grading)}
-    return Model(settings, surface.plan_grid(scene.sheet.lengths, chosen.grid[:2]), predict)
+    axes = surface.plan_grid(scene.sheet.lengths, chosen.grid[:2])
+    return Model({**chosen.settings, **as_settings(grading)}, axes, partial(_predict, chosen, run))
 
 
 def reference_model(model: Resolved[Elements]) -> Model:
@@ -111,21 +96,51 @@ def reference_model(model: Resolved[Elements]) -> Model:
             here, model.spec.model, end, elements=(along_x, along_y), **steps, **options
         )
 
-    def still(here: Scene, points: np.ndarray) -> np.ndarray:
-        solution = solve(model.on(here))
-        if solution.status is not Status.CONVERGED:
-            raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
-        return solution.displacement(points)
-
-    def predict(
-        unknowns: Sequence[Unknown], x: np.ndarray, points: np.ndarray, time: np.ndarray | None
-    ) -> Prediction:
-        if time is None:
-            return _by_differences(scene, still, STATIC_STEP, unknowns, x, points)
-        return _by_differences(scene, partial(_moved, run, time), MOTION_STEP, unknowns, x, points)
-
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
-    return Model({"elements": [along_x, along_y], **options}, axes, predict)
+    return Model({"elements": [along_x, along_y], **options}, axes, partial(_predict, model, run))
+
+
+def _predict(
+    model: Resolved[Any],
+    run: Callable[..., History],
+    unknowns: Sequence[Unknown],
+    x: np.ndarray,
+    points: np.ndarray,
+    time: np.ndarray | None,
+) -> Prediction:
+    names = [u.name for u in unknowns]
+    if time is not None:
+        others = model.scene.actuators or model.scene.obstacles or not isinstance(model.spec, Lattice)
+        if not others and not any(name.startswith(OF_SUPPORTS) for name in names):
+            here = set_in(model.scene, unknowns, x)
+            moved, *slopes = _moved(partial(run, names=names), time, here, points)
+            return Prediction(
+                moved, [of * u.slope(at) for of, u, at in zip(slopes, unknowns, x, strict=True)]
+            )
+        return _by_differences(
+            model.scene, lambda *at: _moved(run, time, *at)[0], MOTION_STEP, unknowns, x, points
+        )
+    solution = _still(model, set_in(model.scene, unknowns, x))
+    if solution.sensitivity is None:
+        at_rest = lambda here, points: _still(model, here).displacement(points)  # noqa: E731
+        return _by_differences(model.scene, at_rest, STATIC_STEP, unknowns, x, points)
+    try:
+        of = solution.sensitivity()
+        slopes = [of.moved_at(points, u.name) * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
+    except (BadInput, NoEquilibrium) as error:
+        raise NotReached(str(error)) from None
+    return Prediction(solution.displacement(points), slopes)
+
+
+def _still(model: Resolved[Any], here: Scene) -> Solution:
+    """Return the equilibrium of a scene like the model's."""
+    try:
+        solution = solve(model.on(here))
+    except (BadInput, NoEquilibrium) as error:
+        raise NotReached(str(error)) from None
+    if solution.status is not Status.CONVERGED:
+        raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
+    return solution
 
 
 def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
@@ -138,7 +153,8 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
 def _moved(
     run_of: Callable[[Scene, float], History], time: np.ndarray, here: Scene, points: np.ndarray
 ) -> np.ndarray:
-    """Displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s]."""
+    """Displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s], and derivatives
+    that the run has, (1 + parameters, n, 3)."""
     from scipy.interpolate import CubicSpline
 
     places, which = np.unique(points, axis=0, return_inverse=True)
@@ -146,8 +162,10 @@ def _moved(
     run = run_of(here.replace(probes=probes), float(time.max()))
     if run.status is not Status.CONVERGED:
         raise NotReached(f"{run.label}: {run.status}: {run.message}")
-    moved = CubicSpline(run.time, np.stack([run.probes[name] for name in probes], axis=1))(time)
-    return np.asarray(moved[np.arange(len(time)), which.ravel()])
+    series = [run.probes, *run.extra.get("sensitivities", {}).values()]
+    of_probes = np.array([[of[name] for name in probes] for of in series])
+    moved = CubicSpline(run.time, of_probes, axis=2)(time)
+    return np.asarray(moved[:, which.ravel(), np.arange(len(time))])
 
 
 def _by_differences(

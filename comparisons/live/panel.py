@@ -1,7 +1,7 @@
 """What of a scene can be changed on the page, within which bounds, and how a question is read.
 
-A question is what the page's sliders say, JSON from outside: names, types and bounds are checked, which are
-also what keeps a solve small.
+A question has the values of the page's sliders, JSON from outside: names, types and bounds are checked, which
+are also what keeps a solve small.
 """
 
 from __future__ import annotations
@@ -73,8 +73,8 @@ class Panel:
     """The sliders of a scene."""
 
     def __init__(self, scene: Scene, elements: Count = ELEMENTS, lattice: Lattice | None = None) -> None:
-        """elements, lattice: to start with; k has a slider where the lattice has one. Raises BadInput for
-        what is beyond the bounds."""
+        """elements, lattice: to start with; k has a slider where the lattice has one. Raises BadInput for a
+        value beyond the bounds."""
         self.scene = scene
         self._lattice = lattice or Lattice()
         self.sliders = {s.name: s for s in _sliders(scene, elements, self._lattice)}
@@ -136,7 +136,7 @@ class Panel:
 
 
 def _sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[Slider]:
-    """The scene's, then those of the models."""
+    """Yield sliders of the scene, then of the models."""
     material, thickness = scene.material, scene.sheet.thickness
     moduli = {"young_1": "Young's modulus along the fibres", "young_2": "Young's modulus across the fibres"}
     if material.kind != "orthotropic":

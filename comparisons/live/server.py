@@ -3,12 +3,12 @@
     GET  /TOKEN/          the page; live.css, live.js, viewer.js, viewer.css beside it
     GET  /TOKEN/panel     the sliders
     POST /TOKEN/lattice   a question: the lattice's answer
-    POST /TOKEN/shell     the same question: the shell's answer, and how far the lattice's is from it
+    POST /TOKEN/shell     that question: the shell's answer, and the lattice's distance from it
 
-Nothing is kept between questions, and the page asks one of each model at a time: there is no queue. The
+Nothing is kept between questions, and the page sends one for each model at a time: there is no queue. The
 lattice is solved on the request's thread, the shell in a process of its own, as `sheetbench compare` solves
 them, without error bars. What comes in is bounded, and what contradicts itself is answered with status 400
-and a sentence. Every page open in the browser can send requests here: `refusal` says which are answered.
+and a sentence. Every page open in the browser can send requests here: `refusal` has the rules.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ HEADERS = {  # of every answer: scripts, styles and answers of this server alone
 
 
 class Server(ThreadingHTTPServer):
-    """The panel, its secret address, and who answers; port: 0 takes any that is free."""
+    """The panel, its secret address, and its executors; port: 0 takes any that is free."""
 
     def __init__(self, panel: Panel, port: int = 0) -> None:
         self.turn, self.shells = threading.Lock(), Processes(1)  # which a port that is taken closes again
@@ -78,7 +78,7 @@ class Server(ThreadingHTTPServer):
         return threading.active_count() <= CONNECTIONS
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """A connection that breaks is nobody's fault here; anything else the terminal shows."""
+        """Ignore a connection that breaks; anything else the terminal shows."""
         if not isinstance(error := sys.exception(), OSError):
             traceback.print_exception(error)
 
@@ -150,7 +150,7 @@ class Desk(BaseHTTPRequestHandler):
 
 
 def solved(question: Question) -> Solution:
-    """Return the lattice's solution. Raises BadInput for what is contradictory, as do the others here."""
+    """Return the lattice's solution. Raises BadInput for a contradiction, like the others here."""
     return solve(resolve(question.scene, question.lattice))
 
 
@@ -161,8 +161,9 @@ def lattice(question: Question) -> dict[str, Any]:
 
 
 def shell(question: Question) -> dict[str, Any]:
-    """Return the shell's message, with what the lattice differs by: `error` (a fraction, null where it has no
-    meaning), and `difference` [m] at the masses, of those beyond a rim at the nearest point of the sheet."""
+    """Return the shell's message, with the lattice's difference from it: `error` (a fraction, null where it
+    has no meaning), and `difference` [m] at the masses, of those beyond a rim at the nearest point of the
+    sheet."""
     scene, beside = question.scene, solved(question)
     solution = solve(resolve(scene, Elements("shell", question.elements)))
     plan, probes = plan_mesh(scene, SHELL_CELLS), scene.probe_points()
@@ -191,7 +192,7 @@ WAYS = {"lattice": lattice, "shell": shell}
 
 
 def _assets(panel: Panel) -> dict[str, tuple[Any, str]]:
-    """Return content and type of what the page reads, by name; the page itself has none."""
+    """Return content and type of the page's files, by name; the page itself has none."""
     folder, own = resources.files("comparisons.live").joinpath("page"), ("live.html", "live.css", "live.js")
     texts = {name: folder.joinpath(name).read_text("utf-8") for name in own}
     texts |= {name: own_text(name) for name in ("viewer.js", "viewer.css")}

@@ -15,7 +15,7 @@ from sheetbench.scenes.language.schema import for_editors
 
 
 class Catalogue(Answer):
-    """The list that `sheetbench check` shows; the scenes' own files go along into a folder."""
+    """The catalogue as `sheetbench check` lists it; with `--out` the scenes' files are copied too."""
 
     file_name = "scenes"
 
@@ -41,7 +41,7 @@ class Catalogue(Answer):
 
 
 def scene_file(name: str) -> dict[str, Write]:
-    """Return the file of a scene of the catalogue, none of a name that is not there."""
+    """Return the file of a catalogue scene with its writer, nothing for other names."""
     path = catalogue().get(name)
     if path is None:
         return {}

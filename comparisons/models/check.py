@@ -1,6 +1,6 @@
-"""A scene in words: its parts, whether it can rest, and what the models do with it by default.
+"""A scene in words: its parts, its rigid motions, and the default lattice and shell for it.
 
-Nothing is solved. What is hardly meant (`scenes.meaning.plausibility`) stands among the complaints.
+Nothing is solved. Implausible values (`scenes.meaning.plausibility`) are listed as complaints.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from sheetbench.scenes.objects.grid import elements_of
 
 @dataclass(frozen=True, repr=False)
 class Check(Answer):
-    """A scene in words; called: the catalogue name or path that commands shall have."""
+    """A scene in words; called: its catalogue name or path, for the commands shown."""
 
     scene: Scene
     called: str
@@ -38,7 +38,7 @@ class Check(Answer):
 
     @cached_property
     def parts(self) -> list[tuple[str, str]]:
-        """The scene's parts, the default lattice and the default shell, and what each is in words."""
+        """The scene's parts, the default lattice and the default shell, each with its description."""
         return [*in_words(self.scene), ("lattice", _lattice(self.scene)), ("shell", _shell(self.scene))]
 
     @cached_property
@@ -48,7 +48,7 @@ class Check(Answer):
 
     @cached_property
     def free(self) -> list[str]:
-        """Rigid motions that nothing stops."""
+        """Rigid motions that supports and obstacles leave free."""
         return unstopped_motions(self.scene)
 
     @property
@@ -86,18 +86,18 @@ class Check(Answer):
 
 
 def check(scene: AnyScene, called: str | None = None) -> Check:
-    """Return a scene in words; called: the catalogue name or path that commands shall have."""
+    """Return a scene in words; called: its catalogue name or path, for the commands shown."""
     called = called or (scene.name if isinstance(scene, Scene) else str(scene))
     with catch_warnings():
-        simplefilter("ignore", Implausible)  # they stand in the answer
+        simplefilter("ignore", Implausible)  # the answer lists these warnings
         return Check(scene_of(scene), called)
 
 
 def _lattice(scene: Scene) -> str:
     nx, ny, layers = scene_grid(scene, None)
     x, y = (1e3 * length / (n - 1) for length, n in zip(scene.sheet.lengths, (nx, ny), strict=True))
-    usual = CALIBRATION if scene.material.law is None else RUBBER
-    springs = f"{usual} springs" if scene.springs is None else "the scene's own springs"
+    calibration = CALIBRATION if scene.material.law is None else RUBBER
+    springs = f"{calibration} springs" if scene.springs is None else "the scene's own springs"
     return (
         f"{nx} × {ny} × {layers} masses in cells of {x:.3g} × {y:.3g} mm, {springs} (--lumped, --calibration)"
     )
@@ -105,9 +105,9 @@ def _lattice(scene: Scene) -> str:
 
 def _shell(scene: Scene) -> str:
     nx, ny = elements_of(scene.sheet, ELEMENTS)
-    if (own := scene.sheet.mesh) is not None:
+    if (given := scene.sheet.mesh) is not None:
         mesh = (
-            f"the mesh's {len(own.quads)} elements (--elements {ELEMENTS}; {2 * ELEMENTS} cuts each in four"
+            f"the mesh's {len(given.quads)} elements (--elements {ELEMENTS}; {2 * ELEMENTS} cuts each in four"
         )
     else:
         mesh = f"{nx} × {ny} elements (--elements"

@@ -1,4 +1,4 @@
-"""The picture of a scene before anything is solved: plan, patches, supports, loads, payloads and probes."""
+"""The figure of a scene before a solve: plan, patches, supports, loads, payloads and probes."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from sheetbench.scenes.objects.supports import named, place
 
 SHEET, PATCHES, LOAD, HELD = "#e8ebee", "YlOrBr", "#1b6ca8", "#8a939c"
 PAYLOAD, OBSTACLE = "#4a3f6b", "#d8d2c4"
-LONGEST = 0.14  # of the longer side, an arrow
+LONGEST = 0.14  # length of the longest arrow, of the longer side
 
 
 def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
-    """Return the plan: the sheet pale, with the elements of a mesh of its own; patches in colours, what is
-    held grey under a dark rim, loads blue, payloads violet."""
+    """Return the plan of a scene: the sheet pale, with the elements of a given mesh; patches coloured,
+    supports grey with a dark line, loads blue, payloads violet."""
     lengths = np.array(scene.sheet.lengths)
     height = style.width * min(max(lengths[1] / lengths[0], 0.25), 1.5) + 0.6
     figure = Figure(figsize=(style.width, height), layout="constrained")
@@ -39,8 +39,8 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
         axis.add_collection(PolyCollection(elements, facecolors="none", edgecolors=HELD, linewidths=0.3))
     for number, patch in enumerate(scene.patches, start=1):
         colour = colormaps[PATCHES](0.2 + 0.6 * number / (len(scene.patches) + 1))
-        look = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
-        _part(axis, scene, patch.shape, f"patch {number}", **look)
+        face = {"facecolor": colour, "edgecolor": DARK, "linewidth": 0.4, "alpha": 0.7}
+        _part(axis, scene, patch.shape, f"patch {number}", **face)
     for name, support in named(scene.supports).items():
         if (shape := place(support)) is not None:
             _part(axis, scene, shape, name, facecolor=HELD, edgecolor="none", alpha=0.6)
@@ -54,15 +54,16 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
             _part(axis, scene, shape, f"load {number}", facecolor=LOAD, edgecolor=LOAD, alpha=0.2)
     for number, payload in enumerate(scene.masses, start=1):
         if payload.where is not None:
-            look = {"facecolor": PAYLOAD, "edgecolor": PAYLOAD, "alpha": 0.4}
-            _part(axis, scene, payload.where, f"mass {number}", **look)
+            face = {"facecolor": PAYLOAD, "edgecolor": PAYLOAD, "alpha": 0.4}
+            _part(axis, scene, payload.where, f"mass {number}", **face)
         elif payload.at is not None:
             axis.plot(*1e3 * np.array(payload.at), "s", markersize=7, color=PAYLOAD)
-    for one in scene.obstacles:
-        if not isinstance(one, Plane):  # which has no shadow
-            ends = np.array(one.position) + np.outer((-1.0, 1.0), max(scene.sheet.lengths) * one.direction)
-            caps: Any = "flat" if any(one.direction[:2]) else "round"
-            shadow = LineString(ends[:, :2]).buffer(one.radius, cap_style=caps)
+    for obstacle in scene.obstacles:
+        if not isinstance(obstacle, Plane):  # a plane has no outline
+            half = max(scene.sheet.lengths) * obstacle.direction
+            ends = np.array(obstacle.position) + np.outer((-1.0, 1.0), half)
+            caps: Any = "flat" if any(obstacle.direction[:2]) else "round"
+            shadow = LineString(ends[:, :2]).buffer(obstacle.radius, cap_style=caps)
             axis.add_patch(_filled(shadow, facecolor=OBSTACLE, edgecolor=DARK, alpha=0.5, linestyle="--"))
     _arrows(axis, scene, 1e3 * LONGEST * lengths.max())
     for name, at in scene.probes.items():
@@ -76,7 +77,7 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
 
 
 def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
-    """Loads in the plane as arrows [mm], those across it as dots towards the eye or crosses away from it."""
+    """Draw loads in the plane as arrows [mm], loads normal to it as dots (upwards) or crosses (downwards)."""
     plan, arrows = load_arrows(scene, lambda points: np.tile([0.0, 0.0, 1.0], (len(points), 1)))
     for at, along in zip(1e3 * plan, arrows, strict=True):
         size = float(np.linalg.norm(along))
@@ -91,9 +92,9 @@ def _arrows(axis: Axes, scene: Scene, longest: float) -> None:
 
 
 def _part(axis: Axes, scene: Scene, shape: Shape, name: str, **drawn_as: Any) -> None:
-    """The part of the sheet in a shape, with its name at the upper left, a patch's at the lower right."""
+    """Draw the part of the sheet inside a shape, with its name at the upper left or lower right."""
     area = scene.region.intersection(shape.area)
-    if not area.area:  # a rim, of which the line is drawn
+    if not area.area:  # a rim, drawn as a line by the caller
         return
     axis.add_patch(_filled(area, **drawn_as))
     left, low, right, top = (1e3 * bound for bound in area.bounds)
@@ -104,7 +105,7 @@ def _part(axis: Axes, scene: Scene, shape: Shape, name: str, **drawn_as: Any) ->
 
 
 def _filled(area: Any, **drawn_as: Any) -> PathPatch:
-    """An area [m] without its holes, which run the other way round."""
+    """Return an area [m] as a filled patch; holes stay empty because their rings run the opposite way."""
     parts = [part for part in getattr(area.normalize(), "geoms", [area.normalize()]) if part.area > 0.0]
     rings = [np.array(ring.coords) for part in parts for ring in (part.exterior, *part.interiors)]
     return PathPatch(Path.make_compound_path(*(Path(1e3 * ring, closed=True) for ring in rings)), **drawn_as)

@@ -1,7 +1,7 @@
-"""Settings of everything that runs inside a call: progress, and whether large models are let through.
+"""Settings of all solves inside a call: progress, and whether models above the free memory are allowed.
 
-`with running(large=True, progress=print):` holds for all that is solved in the block, in this thread. Verbs
-have `large` and `progress` (`comparisons.cli.verb`), and nothing below them passes them on.
+`with running(large=True, progress=print):` holds for every solve of the block in this thread. Verbs have the
+options `large` and `progress` (`comparisons.cli.verb`); functions below do not pass them on.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from sheetbench.answers.solution import Solution
 
 @dataclass(frozen=True)
 class Context:
-    """large: solve even what takes more memory than there is; progress: called with what is being done, and
-    with every iteration; solved: called with every answer of a comparison as soon as it is there."""
+    """The settings of solves. large: allow models that need more memory than is free; progress: called with
+    the current work at its start and at every iteration; solved: called with every answer of a comparison as
+    soon as it exists."""
 
     large: bool = False
     progress: Progress = silent
@@ -30,15 +31,15 @@ _CONTEXT = ContextVar("context", default=Context())  # noqa: B039  # frozen
 
 
 def context() -> Context:
-    """Return the settings that hold here."""
+    """Return the settings of the enclosing `running` block."""
     return _CONTEXT.get()
 
 
 @contextmanager
-def running(**wanted: Any) -> Iterator[None]:
-    """Hold other values of a `Context` within a block."""
-    before = _CONTEXT.set(replace(_CONTEXT.get(), **wanted))
+def running(**settings: Any) -> Iterator[None]:
+    """Set other values of a `Context` for a block."""
+    token = _CONTEXT.set(replace(_CONTEXT.get(), **settings))
     try:
         yield
     finally:
-        _CONTEXT.reset(before)
+        _CONTEXT.reset(token)

@@ -1,28 +1,28 @@
-"""How far a lattice will be from a converged shell, estimated from the same lattice on a finer grid.
+"""Expected grid error of a lattice, estimated from a second solve on a finer grid, without a shell.
 
-With f the displacements at the scene's probes on the grid requested and g those on a finer one, whose cells
-are 1/r as long, an error that falls with the square of the cells is
+Let f be the displacements at the scene's probes on the requested grid and g the displacements on a finer
+grid with cells 1/r as long. An error proportional to the square of the cell length is
 
     e = max |f − g| / (1 − 1/r²) / max |g|
 
-in the norm of `error` (largest component over the probes; Roache, J. Fluids Eng. 116 (1994) 405–413, with
-the finer answer known). The finer grid has half as many cells again, and FINEST_COARSE or more along the
-shorter side, where the error is not yet second order on coarser ones.
+in the norm of `error` (largest component over the probes; Roache, J. Fluids Eng. 116 (1994) 405–413, in the
+form for a known finer answer). The finer grid has half as many cells again, and at least FINEST_COARSE along
+the shorter side, because the error is not yet second order on coarser grids.
 
-Chains are divided as the grid is (`lumped.actuators.division`), so that the finer lattice has the finer
+A chain has as many divisions as the grid (`lumped.actuators.division`), so the finer lattice has a finer
 chain.
 
-It is the grid's error and no more: what differs on every grid, as the laws of strain do, it does not see. So
-no estimate is given
+The estimate covers the grid error alone; differences that remain on every grid, as between laws of strain,
+are not in it. No estimate is given
 
-- of calibrations whose answers do not tend to the sheet's, of a given k or layer distance, of linear answers;
-- where either answer is no stable equilibrium, or one snapped and the other not;
-- where the load bends the sheet within FOLD cells of the finer grid: both grids miss the fold, and agree;
-- where the estimate is above FAR: the two may lie on different branches;
-- where the sheet stretches so far that the laws of strain weigh more (LAW);
-- where the finer lattice would have more than MOST masses in plan.
+- for calibrations whose answers do not converge to the sheet's, a given k or layer distance, linear answers;
+- if either answer is no stable equilibrium, or only one of them snapped;
+- if the load bends the sheet within FOLD cells of the finer grid: both grids miss the fold, and agree;
+- if the estimate is above FAR: the answers may lie on different branches;
+- if the sheet stretches so far that the laws of strain differ by more (LAW);
+- if the finer lattice would have more than MOST masses in plan.
 
-`sheetbench study promises` measures on a hundred scenes how good it is (docs/theory.md, section 6).
+`sheetbench study promises` measures its accuracy on a hundred scenes (docs/theory.md, section 6).
 """
 
 from __future__ import annotations
@@ -44,19 +44,20 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
 
-FINER = 1.5  # times as many cells
+FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
 FOLD = 1.5  # cells of the finer grid in the layer that a load bends (`comparisons.models.layers`), at least
 FAR = 0.5  # of the largest displacement
-LAW = 0.2  # of the largest stretch, that the laws of strain may put lattice and shell apart
+LAW = 0.2  # of the largest stretch: difference of lattice and shell due to their laws of strain
 MOST = 5000  # masses in plan
-LARGE = 0.02  # above which a note says how to lower it
+LARGE = 0.02  # estimates above it get advice on how to lower them
 ROUNDING = 1e-9  # of the largest displacement
 
 
 @dataclass(frozen=True)
 class ExpectedError:
-    """value: a share, in the norm of `error`; grid: the finer one that it is estimated from, and its time."""
+    """An estimated grid error. value: fraction of the largest displacement, in the norm of `error`; grid,
+    solve_seconds: the finer grid and its solve time."""
 
     value: float
     grid: Grid
@@ -64,7 +65,7 @@ class ExpectedError:
 
     @property
     def reason(self) -> str:
-        """What it is made from, in words."""
+        """The origin of the estimate in words."""
         masses = " × ".join(str(n) for n in self.grid[:2])
         return f"estimated from a second solve on {masses} masses, {1e3 * self.solve_seconds:.0f} ms"
 
@@ -79,7 +80,7 @@ class ExpectedError:
 
 @dataclass(frozen=True)
 class NoEstimate:
-    """Why there is none."""
+    """The reason why no estimate is given."""
 
     reason: str
 
@@ -88,8 +89,7 @@ class NoEstimate:
 
 
 def finer_grid(grid: Grid) -> Grid:
-    """Return the grid whose answer the estimate compares with: 1.5 times as many cells, at least
-    FINEST_COARSE."""
+    """Return the finer grid of the estimate: 1.5 times as many cells, at least FINEST_COARSE."""
     cells = [n - 1 for n in grid[:2]]
     factor = max(FINER, FINEST_COARSE / min(cells))
     nx, ny = (int(np.ceil(factor * n - 1e-9)) + 1 for n in cells)
@@ -97,22 +97,20 @@ def finer_grid(grid: Grid) -> Grid:
 
 
 def converges(lattice: Lattice, finer: Grid) -> bool:
-    """Return whether answers of a resolved lattice tend to the sheet's, and the finer grid is not too
-    large."""
-    own = lattice.k or lattice.layer_distance or lattice.linear
-    known = lattice.calibration in EXTRAPOLATED and finer[2] == LAYERS
-    return known and not own and prod(finer[:2]) <= MOST
+    """Return whether a lattice converges to the sheet and its finer grid has at most MOST masses."""
+    modified = lattice.k or lattice.layer_distance or lattice.linear
+    convergent = lattice.calibration in EXTRAPOLATED and finer[2] == LAYERS
+    return convergent and not modified and prod(finer[:2]) <= MOST
 
 
 def resolves(scene: Scene, grid: Grid) -> bool:
-    """Return whether the layer in which the scene's load bends the sheet has FOLD cells of a grid or more."""
+    """Return whether the boundary layer of the scene's load spans at least FOLD cells of a grid."""
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
     return all(layer.bent_edge or layer.width >= FOLD * cell for layer in layers(scene))
 
 
 def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
-    """Return the finer grid of a resolved lattice, and how many times as many cells in plan it has; or why
-    there is no estimate."""
+    """Return a lattice's finer grid and its ratio of cells in plan, or the reason for no estimate."""
     grid = scene_grid(scene, lattice.grid)
     finer = finer_grid(grid)
     if converges(lattice, finer):
@@ -125,17 +123,14 @@ def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
 def expected_error(
     scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
 ) -> ExpectedError | NoEstimate:
-    """Return the grid error to expect of a lattice's solution of a scene, or why none is given (see above).
-
-    lattice: what was solved, resolved; solve: answers the finer lattice, None where that takes too much
-    memory.
-    """
+    """Return the expected grid error of a lattice's solution, or the reason for no estimate. lattice: the
+    resolved lattice; solve: solves the finer lattice, None if it needs too much memory."""
     if solution.status is not Status.CONVERGED:
         return NoEstimate(f"the lattice is {solution.status}")
-    found = finer_of(scene, lattice)
-    if isinstance(found, NoEstimate):
-        return found
-    finer, ratio = found
+    refinement = finer_of(scene, lattice)
+    if isinstance(refinement, NoEstimate):
+        return refinement
+    finer, ratio = refinement
     masses = f"{finer[0]} × {finer[1]}"
     if not resolves(scene, finer):
         return NoEstimate("the load bends the sheet within a cell or two, on a finer grid too")
@@ -147,8 +142,8 @@ def expected_error(
     if len(fine.snaps) != len(solution.snaps):
         snaps = f"the sheet snaps {len(fine.snaps)} times, here {len(solution.snaps)}"
         return NoEstimate(f"on {masses} masses {snaps}")
-    if other := ", ".join(sorted(fine.touched ^ solution.touched)):
-        return NoEstimate(f"{other}: touched here or on {masses} masses alone")
+    if touched_once := ", ".join(sorted(fine.touched ^ solution.touched)):
+        return NoEstimate(f"{touched_once}: touched here or on {masses} masses alone")
     points = scene.probe_points()
     stretch = largest_stretch(scene, fine, finer)
     value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)
@@ -158,9 +153,12 @@ def expected_error(
 
 
 def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: float = 0.0) -> float | str:
-    """Return e of displacements (n, 3), or of other values, on grids with `ratio` times as many cells in plan
-    on the finer; or why there is none, as the end of a sentence: they are alike but for rounding, too far
-    apart, or `stretch` makes the laws of strain weigh more."""
+    """Return the grid error e of displacements (n, 3) or other values, or a clause why there is none.
+
+    ratio: number of cells in plan of the finer grid over the coarser one; stretch: largest elongation. No
+    estimate is given for values that differ by rounding alone, by too much, or by less than the laws of
+    strain may differ.
+    """
     size, difference = float(np.max(np.abs(fine))), float(np.max(np.abs(coarse - fine)))
     if not difference > ROUNDING * size:
         return "are the same but for rounding"
@@ -173,17 +171,21 @@ def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: floa
 
 
 def largest_stretch(scene: Scene, solution: Solution, grid: Grid) -> float:
-    """Return the largest elongation of the mid-surface between neighbours on a lattice's grid, along its
-    lines and diagonals."""
+    """Return the largest elongation of the mid-surface between neighbours on a lattice's grid."""
     lines = [np.linspace(0.0, a, n) for a, n in zip(scene.sheet.lengths, grid[:2], strict=True)]
     flat = np.stack([*np.meshgrid(*lines, indexing="ij"), np.zeros([len(line) for line in lines])], axis=-1)
     plan = flat[..., :2].reshape(-1, 2)
-    there, moved = inside(scene, plan), np.full_like(flat, np.nan)
-    moved.reshape(-1, 3)[there] = flat.reshape(-1, 3)[there] + solution.displacement(plan[there])
-    on, to, all_ = slice(1, None), slice(None, -1), slice(None)
-    ways = [((on, all_), (to, all_)), ((all_, on), (all_, to)), ((on, on), (to, to)), ((on, to), (to, on))]
-    found = []
-    for one, other in ways:
-        rest, now = (np.linalg.norm(at[one] - at[other], axis=-1) for at in (flat, moved))
-        found.append(float(np.nanmax(now / rest)) - 1.0)
-    return max(found)
+    on_sheet, deformed = inside(scene, plan), np.full_like(flat, np.nan)
+    deformed.reshape(-1, 3)[on_sheet] = flat.reshape(-1, 3)[on_sheet] + solution.displacement(plan[on_sheet])
+    up, low, every = slice(1, None), slice(None, -1), slice(None)
+    neighbours = [
+        ((up, every), (low, every)),
+        ((every, up), (every, low)),
+        ((up, up), (low, low)),
+        ((up, low), (low, up)),
+    ]
+    elongations = []
+    for first, second in neighbours:
+        rest, length = (np.linalg.norm(at[first] - at[second], axis=-1) for at in (flat, deformed))
+        elongations.append(float(np.nanmax(length / rest)) - 1.0)
+    return max(elongations)

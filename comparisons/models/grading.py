@@ -1,13 +1,12 @@
 """Grading of a lattice, finer cells at the edges: as given, or by the scene's boundary layers.
 
-`auto` looks at the widths of the layers that form at the edges (`comparisons.models.layers`), before
-anything is solved, and grades the grid where the narrowest is less than NARROW of the shorter side (of a
-sheet that one clamped edge alone holds: of the length that it juts out) and less than RESOLVED cells
-wide. On the transfer study's scenes that tells those that grading mends (curved edges, soft and thin
-sheets, pressure) from those whose smooth interior it would make coarser; on scenes that were drawn after
-the rule was made, of eight that it grades by GRADED seven are nearer and one is not, by ½ two are much
-farther off (docs/theory.md). Where one clamped edge is all that holds the sheet it grades towards that
-edge alone, by ONE_SIDED.
+`auto` compares the widths of the layers at the edges (`comparisons.models.layers`) before a solve. It grades
+the grid if the narrowest layer is less than NARROW of the shorter side wide (for a sheet with one clamped
+edge: of the length across that edge) and less than RESOLVED cells wide. A sheet held by one clamped edge
+alone is graded towards that edge, by ONE_SIDED, every other sheet towards all edges, by GRADED. The rule
+separates the transfer study's scenes that grading improves (curved edges, soft and thin sheets, pressure)
+from scenes with a smooth interior, which it would make coarser. Eight scenes drawn after the rule was made
+are graded by GRADED: seven improve and one does not; by ½, two become much worse (docs/theory.md).
 """
 
 from __future__ import annotations
@@ -34,15 +33,15 @@ from sheetbench.scenes.objects.grading import (
 from sheetbench.scenes.objects.grid import LAYERS
 from sheetbench.scenes.objects.supports import place
 
-GRADED = 0.3  # what `auto` grades by towards all edges
-ONE_SIDED = 0.5  # and towards the one that holds the sheet
+GRADED = 0.3  # grading of `auto` towards all edges
+ONE_SIDED = 0.5  # grading of `auto` towards the only clamped edge
 NARROW = 0.6
 RESOLVED = 24.0
 
 
 def parse_grading(grading: GradingLike) -> Graded | str | None:
-    """Return a number or a grading towards some edges, or "auto", from a request, text too (0.5,
-    0.5:x0,y0); None where nothing is. Raises BadInput."""
+    """Return a grading from a number or text (0.5, 0.5:x0,y0): a number, a grading towards some edges,
+    "auto", or None for None. Raises BadInput."""
     if grading is None or grading == AUTO or isinstance(grading, Grading):
         return grading
     by, _, edges = str(grading).partition(":")
@@ -59,59 +58,62 @@ def parse_grading(grading: GradingLike) -> Graded | str | None:
 
 
 def fixed(grading: GradingLike) -> Graded | None:
-    """Return the grading that is requested; None for "auto" too. Raises BadInput."""
-    chosen = parse_grading(grading)
-    return None if isinstance(chosen, str) else chosen
+    """Return a requested grading, None for "auto". Raises BadInput."""
+    parsed = parse_grading(grading)
+    return None if isinstance(parsed, str) else parsed
 
 
 def grading_of(scene: Scene, grid: Sequence[int], lattice: Lattice) -> tuple[Graded | None, str]:
-    """Return the grading, None where none is requested and no shapes are drawn whose sides lines can be moved
-    to, and the reason in a sentence where it is chosen. Raises BadInput for what is none."""
-    chosen = parse_grading(lattice.grading)
+    """Return the grading of a lattice and a sentence with the reason for a choice made here.
+
+    The grading is None if none is requested; the reason then describes the grid lines moved to the sides of
+    shapes, if there are any. Raises BadInput for an invalid grading.
+    """
+    requested = parse_grading(lattice.grading)
     if isinstance(moved := lines_on_shapes(scene, grid, lattice), Grading):
-        return None, _ends_of_cells(scene, grid, moved)
-    if not isinstance(chosen, str):
-        return chosen, ""
+        return None, _moved_lines_note(scene, grid, moved)
+    if not isinstance(requested, str):
+        return requested, ""
     return (0.0, why_not) if (why_not := one_size(grid, lattice)) else _by_layers(scene, grid)
 
 
 def lines_on_shapes(scene: Scene, grid: Sequence[int], lattice: Lattice) -> Graded:
-    """Return equal cells but for lines on the sides of shapes, where no grading is requested."""
+    """Return a grading that moves grid lines to the sides of shapes, 0 if a grading is requested or the sheet
+    has no shapes."""
     requested = lattice.grading is not None or not scene.shaped_by or one_size(grid, lattice)
     return 0.0 if requested else through(sides_of_shapes(scene), scene.sheet.lengths)
 
 
-def _ends_of_cells(scene: Scene, grid: Sequence[int], grading: Grading) -> str:
-    """Return what lines that are moved to the sides of shapes do, and which sides have none."""
-    found = ["the grid's lines are moved to the sides of the shapes; --grading 0 keeps cells of one size"]
+def _moved_lines_note(scene: Scene, grid: Sequence[int], grading: Grading) -> str:
+    """Return a note on grid lines moved to the sides of shapes, and on sides without a line."""
+    clauses = ["the grid's lines are moved to the sides of the shapes; --grading 0 keeps cells of one size"]
     for axis, (places, length, count) in enumerate(
         zip(grading.places, scene.sheet.lengths, grid[:2], strict=True)
     ):
         on_lines = places_with_lines(places, length, count)
         if missed := [f"{1e3 * place:.4g}" for place in places if place not in on_lines]:
-            found.append(
+            clauses.append(
                 f"sides at {'xy'[axis]} = {', '.join(missed)} mm lie within cells, where a slit is not open: "
                 f"that takes {lines_for_all(places, length)} masses along {'xy'[axis]}"
             )
-    return "; ".join(found)
+    return "; ".join(clauses)
 
 
 def choice_notes(settings: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return why a grading and a calibration were chosen, a sentence each, from the settings of an answer;
-    none where both were given. The solid's `grading` is a word, a plug-in's may be anything: only one with a
-    reason beside it is a lattice's."""
-    found = []
-    if why := settings.get("grading_reason"):
-        given = settings.get("grading")  # a text of a specification, None where none is given
-        shown = given if isinstance(given, str) else f"{of_settings(settings, (1.0, 1.0)):g}"
-        found.append(why if given is None else f"grading {shown}: {why}")
-    if why := settings.get("calibration_reason"):
-        found.append(f"calibration {settings['calibration']}: {why}")
-    return tuple(found)
+    """Return the reasons for an automatic grading and calibration, a sentence each, from an answer's
+    settings. A `grading` without a reason belongs to a solid or a plug-in and is ignored."""
+    notes = []
+    if reason := settings.get("grading_reason"):
+        grading = settings.get("grading")  # text of a specification, None if none was given
+        text = grading if isinstance(grading, str) else f"{of_settings(settings, (1.0, 1.0)):g}"
+        notes.append(reason if grading is None else f"grading {text}: {reason}")
+    if reason := settings.get("calibration_reason"):
+        notes.append(f"calibration {settings['calibration']}: {reason}")
+    return tuple(notes)
 
 
 def one_size(grid: Sequence[int], lattice: Lattice) -> str:
-    """Return why these springs cannot be had cell by cell, "" where they can."""
+    """Return the reason why a lattice's cells must have one size, "" if they may differ."""
     method = method_of(lattice.calibration, lattice.k)
     if "grading" not in CALIBRATIONS[method].takes:
         return f"the calibration {method} is for cells of one size"
@@ -121,10 +123,10 @@ def one_size(grid: Sequence[int], lattice: Lattice) -> str:
 
 
 def _by_layers(scene: Scene, grid: Sequence[int]) -> tuple[Graded, str]:
-    found = layers(scene)
-    if not found:
+    boundary_layers = layers(scene)
+    if not boundary_layers:
         return 0.0, "nothing bends the sheet, so that it has no layers at its edges"
-    layer = min(found)
+    layer = min(boundary_layers)
     width, held = layer.width, scene.supports
     one_sided = not (layer.bent_edge or scene.actuators) and len(held) == 1 and isinstance(held[0], Clamped)
     one_sided = one_sided and place(held[0]) is None

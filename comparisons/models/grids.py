@@ -1,6 +1,6 @@
 """Grids as the user writes them: `N` along the shorter side, `NxM` along x and y, `NxMxL` with layers.
 
-Masses of lattices, elements of references. What the numbers mean is explained in `scenes.objects.grid`.
+The numbers count masses of lattices or elements of references (`scenes.objects.grid`).
 """
 
 from __future__ import annotations
@@ -16,11 +16,8 @@ Elements = int | tuple[int, int]
 
 
 def parse_elements(text: Elements | str, option: str = "--elements") -> Elements:
-    """Return the elements of `N`, along the shorter side and near-square, or `NxM` along x and y, or as they
-    are where they are numbers.
-
-    Raises BadInput naming the option.
-    """
+    """Return the elements of `N`, near-square along the shorter side, or `NxM`, along x and y; numbers pass
+    unchanged. Raises BadInput naming the option."""
     if not isinstance(text, str):
         return text
     numbers = _numbers(text)
@@ -45,8 +42,8 @@ def parse_grid(sheet: Sheet, text: str) -> Grid:
 
 
 def scene_grid(scene: Scene, grid: GridLike = None) -> Grid:
-    """Return the grid requested, as text or as numbers; else that of the scene's own [springs], if they name
-    one, or nine masses along the shorter side."""
+    """Return a grid given as text or numbers; by default the grid of the scene's [springs], without one nine
+    masses along the shorter side."""
     if isinstance(grid, str):
         return parse_grid(scene.sheet, grid)
     own = scene.springs and scene.springs.grid
@@ -54,6 +51,6 @@ def scene_grid(scene: Scene, grid: GridLike = None) -> Grid:
 
 
 def _numbers(text: str) -> list[int]:
-    """Return the whole numbers of 9x13, none of other text."""
+    """Return the whole numbers of text as 9x13, an empty list for other text."""
     parts = text.lower().replace("×", "x").split("x")
     return [int(part) for part in parts] if all(p.isascii() and p.isdigit() for p in parts) else []

@@ -1,6 +1,6 @@
-"""The reference page of the scene language, made of the schema: all keys, table by table.
+"""The reference page of the scene language, generated from the schema: all keys, table by table.
 
-The documentation's build writes it as scene.md, `sheetbench check --schema --out DIR` too.
+The documentation's build and `sheetbench check --schema --out DIR` write it as scene.md.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ HEADINGS: dict[Any, str] = {"object": "[{}]", "array": "[[{}]]"}  # of keys that
 
 
 def markdown() -> str:
-    """Return the page."""
+    """Return the page as Markdown."""
     schema = json_schema(Scene)
     keys, shown = schema["properties"], list[dict[str, Any]]()
     types = {key: resolved(schema, node).get("type") for key, node in keys.items()}
@@ -53,30 +53,31 @@ def markdown() -> str:
         shown += tables
     parts.append(WITHIN)
     for name, table in schema["$defs"].items():
-        if not any(table["properties"].items() <= one.get("properties", {}).items() for one in shown):
-            every = [key for one in (schema, *schema["$defs"].values()) for key in one["properties"].items()]
-            users = ", ".join(dict.fromkeys(f"`{key}`" for key, node in every if f"/{name}'" in str(node)))
+        if not any(table["properties"].items() <= other.get("properties", {}).items() for other in shown):
+            parents = (schema, *schema["$defs"].values())
+            nodes = [item for parent in parents for item in parent["properties"].items()]
+            users = ", ".join(dict.fromkeys(f"`{key}`" for key, node in nodes if f"/{name}'" in str(node)))
             parts += [f"### For {users}\n", f"{table['description']}\n", _keys_table(table, schema)]
     return "\n".join(parts)
 
 
 def _keys_table(table: dict[str, Any], schema: dict[str, Any]) -> str:
-    """The keys, those that are needed first."""
+    """Return the keys of a table in Markdown, required keys first."""
     lines = ["| key | unit | value | unless given | what it is |", "| --- | --- | --- | --- | --- |"]
-    needed = table.get("required", ())
-    for key, node in sorted(table["properties"].items(), key=lambda item: item[0] not in needed):
-        default = "*needed*" if key in needed else _shown(node.get("default"))
+    required = table.get("required", ())
+    for key, node in sorted(table["properties"].items(), key=lambda item: item[0] not in required):
+        default = "*needed*" if key in required else _default_text(node.get("default"))
         cells = (f"`{key}`", node.get("unit", ""), value(node, schema), default, node["description"])
         lines.append(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |")
     return "\n".join(lines) + "\n"
 
 
 def value(node: dict[str, Any], schema: dict[str, Any]) -> str:
-    """What a key takes, in words."""
-    return " or ".join(dict.fromkeys(_one(each, schema) for each in branches(schema, node)))
+    """Return the valid values of a key in words."""
+    return " or ".join(dict.fromkeys(_branch_text(branch, schema) for branch in branches(schema, node)))
 
 
-def _one(node: dict[str, Any], schema: dict[str, Any]) -> str:
+def _branch_text(node: dict[str, Any], schema: dict[str, Any]) -> str:
     if "const" in node or "enum" in node:
         return ", ".join(f'"{choice}"' for choice in node.get("enum", [node.get("const")]))
     if node.get("type") == "object":
@@ -91,7 +92,7 @@ def _one(node: dict[str, Any], schema: dict[str, Any]) -> str:
     return f"{WORDS[node['type']]} {', '.join(bounds)}".strip()
 
 
-def _shown(default: Any) -> str:
+def _default_text(default: Any) -> str:
     if default is None or default == [] or default == "":
         return "–"
     return f'"{default}"' if isinstance(default, str) else str(default).lower()

@@ -1,4 +1,4 @@
-"""A sheet and its material from options, refused by the options' names."""
+"""A sheet and its material from options; refusals name the options."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ SIDES = "sides are written 0.188, 0.188x0.3 or 120x80mm"
 
 
 def sides(text: Any) -> dict[str, float]:
-    """Sides along x and y [m] of `0.188`, `0.188x0.3` or `120x80 mm` (a unit of both), or of one or two
-    numbers; none of None."""
+    """Return the sides along x and y [m] of `0.188`, `0.188x0.3`, `120x80 mm` (one unit for both), or one or
+    two numbers; an empty dict for None."""
     if text is None:
         return {}
     if not isinstance(text, str):
         both = text if isinstance(text, list | tuple) else [text]
         return {
-            f"length_{axis}": amount("--side", one, "m")
-            for axis, one in zip("xy", (both[0], both[-1]), strict=True)
+            f"length_{axis}": amount("--side", length, "m")
+            for axis, length in zip("xy", (both[0], both[-1]), strict=True)
         }
     parts = text.replace("×", "x").replace("X", "x").split("x")
     unit = parts[-1].strip().lstrip("0123456789.eE+-")
@@ -39,8 +39,8 @@ def sides(text: Any) -> dict[str, float]:
 
 
 def checked(kind: type[Quantities], data: dict[str, Any], option: str = "--") -> Quantities:
-    """Return the validated object, or BadInput naming the first option that is out of bounds; option: what
-    stands before its name."""
+    """Return the validated object. Raises BadInput naming the first option out of bounds; option: the prefix
+    of its name."""
     try:
         return kind.model_validate(data)
     except ValidationError as error:

@@ -1,7 +1,6 @@
-"""A model on a scene, with every choice made and checked: grid, calibration, grading, springs, size, and why.
+"""A model of a scene with all choices made and validated: grid, calibration, grading, springs, size, reasons.
 
-`resolve` is where every verb makes sure of a model before anything is solved; what it returns is solved by
-`comparisons.models.solve`.
+Every verb calls `resolve` before a solve; `comparisons.models.solve` solves its result.
 """
 
 from __future__ import annotations
@@ -46,8 +45,8 @@ S = TypeVar("S", bound=Spec)
 
 @dataclass(frozen=True)
 class Resolved(Generic[S]):
-    """A model of a scene; spec: with every choice made, a lattice's calibration None where the scene's own
-    [springs] are meant; reasons: sentences on what was chosen, by the setting `…_reason`."""
+    """A model of a scene; spec: with all choices made, a lattice's calibration None for the scene's own
+    [springs]; reasons: a sentence for each choice, by the setting `…_reason`."""
 
     scene: Scene
     spec: S
@@ -55,17 +54,17 @@ class Resolved(Generic[S]):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Of the model, plain data, with the reasons."""
+        """The model's settings with the reasons, as plain data."""
         return {**self.spec.settings, **self.reasons}
 
     @property
     def size(self) -> Size | None:
-        """What solving it takes, None of a plug-in."""
+        """Unknowns and memory of the model, None for a plug-in."""
         return size(self.scene, self.spec)
 
     @property
     def grid(self) -> Grid:
-        """Of a lattice."""
+        """The grid of a lattice."""
         assert isinstance(self.spec, Lattice)
         return cast(Grid, self.spec.grid)
 
@@ -81,15 +80,12 @@ class Resolved(Generic[S]):
         return self.calibrated()
 
     def on(self, scene: Scene) -> Resolved[S]:
-        """Return the same choices for another scene of the same sides."""
+        """Return the model with its choices for another scene with equal sides."""
         return replace(self, scene=scene)
 
     def calibrated(self, training: Sequence[Scene] | None = None) -> Calibration:
-        """Return the springs; training: what fitted ones are fitted to, see `comparisons.models.training`.
-
-        Raises BadInput for options that a calibration does not take; warns of a layer distance that is hardly
-        meant.
-        """
+        """Return the springs; training: scenes of fitted calibrations (`comparisons.models.training`). Raises
+        BadInput for options that a calibration does not take; warns about an implausible layer distance."""
         import lumped
 
         spec: Spec = self.spec
@@ -110,84 +106,83 @@ class Resolved(Generic[S]):
             for slip in layer_slips(sheet, spec.layer_distance, "layer-distance"):
                 warn(Implausible(slip), stacklevel=2)
         grading = grading or lines_on_shapes(self.scene, self.grid, spec)
-        own: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading}
-        named = method_of(method, spec.k)
+        options: dict[str, Any] = {"layer_distance": spec.layer_distance, "grading": grading}
+        calibration = method_of(method, spec.k)
         cells = lumped.sections_of(self.scene, self.grid, grading)
-        if "cells" in CALIBRATIONS[named].takes:
-            own["cells"] = cells
+        if "cells" in CALIBRATIONS[calibration].takes:
+            options["cells"] = cells
         elif self.scene.uniform and self.scene.pierced and not self.fitted and cells is not None:
-            found = lumped.calibrate(sheet, material, self.grid, method, k=spec.k, **own)
-            return lumped.with_shares(found, sheet, material, cells)
+            springs = lumped.calibrate(sheet, material, self.grid, method, k=spec.k, **options)
+            return lumped.with_shares(springs, sheet, material, cells)
         else:
-            knowing = [name for name, each in CALIBRATIONS.items() if "cells" in each.takes]
-            lumped.require_alike(self.scene, f"calibration '{named}'", f"choose {listed(knowing)}")
+            takers = [name for name, entry in CALIBRATIONS.items() if "cells" in entry.takes]
+            lumped.require_alike(self.scene, f"calibration '{calibration}'", f"choose {listed(takers)}")
         if self.fitted:
             from comparisons.models.training import fitted
 
-            return fitted(sheet, material, self.grid, method, training=training, **own)
-        return lumped.calibrate(sheet, material, self.grid, method, k=spec.k, **own)
+            return fitted(sheet, material, self.grid, method, training=training, **options)
+        return lumped.calibrate(sheet, material, self.grid, method, k=spec.k, **options)
 
 
 def resolve(
     scene: Scene, spec: S, use: Use = "statics", *, own: bool = True, option: str = ""
 ) -> Resolved[S]:
-    """Return the model that is meant on a scene, with every choice made.
+    """Return a model of a scene with all choices made.
 
-    use: what for; its springs alone are not refused for the memory that solving takes. own: whether the
-    scene's [springs], where it has them, are meant if no calibration, k or layer distance is given, on their
-    own grid and grading. The grading "auto" chooses the calibration too where none is given. option: by which
-    its size is requested, see `comparisons.models.sizes.require_room`.
+    use: purpose of the model; for "springs" the memory of a solve is not checked. own: whether the scene's
+    [springs], if any, apply on their own grid and grading if no calibration, k or layer distance is given.
+    The grading "auto" chooses an open calibration too. option: the option of the model's size
+    (`comparisons.models.sizes.require_room`).
 
-    Raises BadInput for a model that does not exist, settings that do not exist, go together or go with the
-    scene or the use, and, unless the context is `large`, for one that takes more memory than there is.
+    Raises BadInput for an unknown model, for settings that are unknown or incompatible with each other, the
+    scene or the use, and, unless the context is `large`, for a model that needs more memory than is free.
     """
     for other, names in ONLY.items():
         if isinstance(spec, Lattice) and use not in (other, "springs"):
             require_effect(f"on {use}", {name: spec.settings.get(name) for name in names})
-    found: Resolved[Any]
+    model: Resolved[Any]
     if isinstance(spec, Lattice):
-        found = _lattice(scene, spec, own)
-    elif isinstance(spec, Elements):
-        _check_elements(spec)
-        found = Resolved(scene, spec)
+        model = _lattice(scene, spec, own)
     else:
-        assert isinstance(spec, External)
-        _check_external(spec)
-        found = Resolved(scene, spec)
+        if isinstance(spec, Elements):
+            _check_elements(spec)
+        else:
+            assert isinstance(spec, External)
+            _check_external(spec)
+        model = Resolved(scene, spec)
     if not context().large:
-        if use != "springs" or found.fitted:
-            require_room(scene, found.spec, option, modes=use == "modes")
-        if found.fitted:
+        if use != "springs" or model.fitted:
+            require_room(scene, model.spec, option, modes=use == "modes")
+        if model.fitted:
             from comparisons.models.training import ELEMENTS
 
             require_room(scene, Elements("shell", ELEMENTS), instead="take a calibration that is not fitted")
-    if isinstance(spec, Lattice) and found.spec.calibration is None:
-        assert found.springs  # tables of other grids are refused
-    return cast(Resolved[S], found)
+    if isinstance(spec, Lattice) and model.spec.calibration is None:
+        assert model.springs  # tables of other grids are refused
+    return cast(Resolved[S], model)
 
 
 def resolve_each(
     scene: Scene, lattices: Sequence[Lattice], grading: GradingLike = None
 ) -> tuple[list[Lattice], tuple[str, ...]]:
-    """Return lattices with every choice made, and the reasons.
-
-    grading: of those whose calibration and layers take one. Raises BadInput where none of them does.
-    """
-    for one in lattices:
-        _check_lattice(one)
-    takers = [one for one in lattices if not one_size(scene_grid(scene, one.grid), one)]
+    """Return lattices with all choices made, and the reasons. grading: applies to lattices whose calibration
+    and layers take one. Raises BadInput if none takes one."""
+    for lattice in lattices:
+        _check_lattice(lattice)
+    takers = [lattice for lattice in lattices if not one_size(scene_grid(scene, lattice.grid), lattice)]
     if fixed(grading) and not takers:
         raise BadInput(f"grading = {grading}: none of these calibrations takes cells of different sizes")
-    found = list[Lattice]()
-    methods, gradings = [], list[str]()
-    for one in lattices:
-        meant = resolve(scene, one.but(grading=grading if one in takers else None), use="springs")
-        found.append(meant.spec if meant.spec.grading else meant.spec.but(grading=None))
-        if meant.spec.grading is not None and (why := meant.reasons.get("grading_reason")):
-            gradings.append(f"{meant.grid[0]} × {meant.grid[1]}, grading {meant.spec.grading:g}: {why}")
-        if why := meant.reasons.get("calibration_reason"):
-            methods.append(f"calibration {meant.spec.calibration}: {why}")
-    return found, tuple(dict.fromkeys((*methods, *gradings)))
+    specs = list[Lattice]()
+    calibration_notes, grading_notes = [], list[str]()
+    for lattice in lattices:
+        model = resolve(scene, lattice.but(grading=grading if lattice in takers else None), use="springs")
+        spec, reasons = model.spec, model.reasons
+        specs.append(spec if spec.grading else spec.but(grading=None))
+        if spec.grading is not None and (reason := reasons.get("grading_reason")):
+            grading_notes.append(f"{model.grid[0]} × {model.grid[1]}, grading {spec.grading:g}: {reason}")
+        if reason := reasons.get("calibration_reason"):
+            calibration_notes.append(f"calibration {spec.calibration}: {reason}")
+    return specs, tuple(dict.fromkeys((*calibration_notes, *grading_notes)))
 
 
 def _check_lattice(spec: Lattice) -> None:
@@ -212,15 +207,15 @@ def _lattice(scene: Scene, spec: Lattice, own: bool) -> Resolved[Lattice]:
     _check_lattice(spec)
     spec = spec.but(grid=scene_grid(scene, spec.grid))
     grid = cast(Grid, spec.grid)
-    left_open = spec.calibration is None and spec.k is None and spec.layer_distance is None
-    if own and scene.springs is not None and left_open:
+    is_open = spec.calibration is None and spec.k is None and spec.layer_distance is None
+    if own and scene.springs is not None and is_open:
         return Resolved(scene, spec.but(grading=fixed(spec.grading)))
-    method, because = resolve_calibration(scene, grid, spec)
+    method, calibration_reason = resolve_calibration(scene, grid, spec)
     spec = spec.but(calibration=method_of(method, spec.k))
-    grading, why = grading_of(scene, grid, spec)
-    reasons = {"grading_reason": why, "calibration_reason": because}
-    given = {name: reason for name, reason in reasons.items() if reason}
-    return Resolved(scene, spec.but(grading=grading), given)
+    grading, grading_reason = grading_of(scene, grid, spec)
+    reasons = {"grading_reason": grading_reason, "calibration_reason": calibration_reason}
+    reasons = {name: reason for name, reason in reasons.items() if reason}
+    return Resolved(scene, spec.but(grading=grading), reasons)
 
 
 def _check_elements(spec: Elements) -> None:
@@ -238,7 +233,7 @@ def _check_elements(spec: Elements) -> None:
 
 
 def _check_external(spec: External) -> None:
-    known = [*OURS, *plugins.names()]
-    if spec.name not in known and not plugins.is_outside(spec.name):
-        raise BadInput(f"model = '{spec.name}': unknown, choose one of {', '.join(known)}. {plugins.OWN}")
+    names = [*OURS, *plugins.names()]
+    if spec.name not in names and not plugins.is_outside(spec.name):
+        raise BadInput(f"model = '{spec.name}': unknown, choose one of {', '.join(names)}. {plugins.OWN}")
     plugins.settings_of(plugins.plugin(spec.name), spec.settings)

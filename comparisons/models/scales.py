@@ -1,14 +1,14 @@
 """Dimensionless numbers of a scene: slenderness, load and strain.
 
     slenderness   h/a, a the shorter side
-    load number   q a³/D, q the load per area (weight; other loads spread over the whole sheet) and
-                  D = E h³/12(1 − ν²): a strip held at one end would slope by about a sixth of it, in radians
-    strain        q a/(E h), how much the load would stretch a strip that it hangs from
-    normal load   the part of q that bends a flat sheet: along its normal, pressure and moments
-    span          L, how far the sheet reaches from the edges that hold it across its plane: the side at right
-                  angles to them, the shorter one where both are or none
+    load number   q a³/D, q the load per area (weight; other loads averaged over the whole sheet) and
+                  D = E h³/12(1 − ν²); the slope of a strip clamped at one end is about a sixth of it [rad]
+    strain        q a/(E h), stretch of a strip under the load along it
+    normal load   part of q that bends a flat sheet: its normal component, pressure and moments
+    span          L, length of the sheet across the edges that hold it along its normal; the shorter side if
+                  edges in both directions hold it, or none
 
-The moduli report of a calibration says how far a lattice's own stiffness is from the sheet's.
+The moduli report of a calibration compares the lattice's stiffness with the sheet's.
 """
 
 from __future__ import annotations
@@ -25,8 +25,7 @@ from sheetbench.scenes.objects.supports import held_axes, place
 
 @dataclass(frozen=True)
 class Scales:
-    """The dimensionless numbers of a scene; load, normal_load: per area [Pa]; span [m]; span_load_number:
-    q L³/D."""
+    """Dimensionless numbers of a scene; load, normal_load [Pa]; span [m]; span_load_number: q L³/D."""
 
     slenderness: float
     load: float
@@ -38,11 +37,11 @@ class Scales:
 
     @property
     def bending_number(self) -> float:
-        """The load number of the part of the load that bends a flat sheet."""
+        """Load number of the normal load."""
         return self.load_number * self.normal_load / self.load if self.load > 0.0 else 0.0
 
     def as_dict(self) -> dict[str, float]:
-        """For JSON."""
+        """Return the fields as JSON data."""
         return dict(vars(self))
 
 
@@ -76,7 +75,7 @@ def scales(scene: Scene) -> Scales:
 
 
 def span(scene: Scene) -> float:
-    """Return how far the sheet reaches from the edges that hold it across its plane [m]."""
+    """Return the sheet's length across the edges that hold it along its normal [m]."""
     sheet, across = scene.sheet, 2
     on_edges = [support for support in scene.supports if place(support) is None]
     held = [support.edge for support in on_edges if across in held_axes(support)]

@@ -1,7 +1,7 @@
-"""Unknowns and memory of a model on a scene before it is built, and a refusal of what does not fit.
+"""Unknowns and memory of a model before it is built, and a refusal of models that do not fit.
 
-A process that runs out of memory in the middle of a solve ends without a message; so every verb checks the
-size of all that it is about to solve.
+A process that runs out of memory in a solve ends without a message, so every verb checks the sizes of its
+models first.
 """
 
 from __future__ import annotations
@@ -19,28 +19,28 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 
 MOST = 10**6  # masses or elements along a side
-MODES = 1.7  # memory of a reference's frequencies over that of its statics: shells of 32² elements
-DENSE = 3  # matrices of all states at once: peaks of 768 and 3072 states
+MODES = 1.7  # ratio of a reference's memory for frequencies and for statics, shells of 32² elements
+DENSE = 3  # dense matrices in memory at once, from the peaks for 768 and 3072 states
 
 
 def size(scene: Scene, spec: Spec) -> Size | None:
-    """Of what is solved, None of a plug-in."""
+    """Return unknowns and memory of a model, None for a plug-in."""
     counts = spec.counts(scene)
     return _estimate(spec, counts) if counts else None
 
 
 def has_room(scene: Scene, spec: Spec) -> bool:
-    """Return whether there is as much memory as a model takes, as far as either is known, or whether `large`
+    """Return whether the free memory suffices for a model; true also if either is unknown, or if `large`
     models are allowed."""
     room, needed = memory.available(), size(scene, spec)
     return context().large or room is None or needed is None or needed.memory <= room
 
 
 def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "", modes: bool = False) -> None:
-    """Raise BadInput where a model takes more memory than there is, naming a size that would fit.
+    """Raise BadInput if a model needs more memory than is free; the message names a size that fits.
 
-    option: by which the size is requested, --lumped or --elements by default; instead: what to do where
-    it is not requested; modes: whether natural frequencies are wanted.
+    option: the option of the size, by default --lumped or --elements; instead: advice for a size without
+    option; modes: whether natural frequencies are computed.
     """
     room, needed = memory.available(), size(scene, spec)
     if room is not None and modes and not spec.MASSES:
@@ -57,27 +57,27 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "", 
 
     fitting = _largest(2 if spec.MASSES else 1, fits)
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"
-    taken, free = work.memory(needed.memory), work.memory(room)
+    memory_text, free = work.memory(needed.memory), work.memory(room)
     raise BadInput(
-        f"{spec.model} {counts}: {work.count(needed.unknowns)} unknowns take about {taken} of "
+        f"{spec.model} {counts}: {work.count(needed.unknowns)} unknowns take about {memory_text} of "
         f"memory, and {free} are free here; {instead or advice}, or give --large (in Python large=True) to "
         "try all the same"
     )
 
 
 def require_states(states: int) -> None:
-    """Raise BadInput where the dense matrices of a state space take more memory than there is."""
+    """Raise BadInput if the dense matrices of a state space need more memory than is free."""
     room, needed = memory.available(), DENSE * 8 * states**2
     if room is not None and needed > room and not context().large:
-        taken, free, fitting = work.memory(needed), work.memory(room), isqrt(room // (8 * DENSE)) // 2
+        memory_text, free, fitting = work.memory(needed), work.memory(room), isqrt(room // (8 * DENSE)) // 2
         raise BadInput(
-            f"{work.count(states)} states: their matrices take about {taken} of memory, and {free} are free "
-            f"here; --state-space {fitting} would fit, or give --large to try all the same"
+            f"{work.count(states)} states: their matrices take about {memory_text} of memory, and {free} are "
+            f"free here; --state-space {fitting} would fit, or give --large to try all the same"
         )
 
 
 def mesh(scene: Scene, spec: Spec) -> str:
-    """Return the masses or elements of a model in words, of the whole sheet; "" of a plug-in."""
+    """Return the numbers of masses or elements of a model in words, "" for a plug-in."""
     counts = " × ".join(str(n) for n in spec.counts(scene))
     return counts and f"{counts} {'masses' if spec.MASSES else 'elements'}"
 
@@ -93,5 +93,5 @@ def _estimate(spec: Spec, counts: list[int]) -> Size:
 
 
 def _largest(least: int, fits: Callable[[int], bool]) -> int:
-    """Return the largest number that fits, 0 if none does."""
+    """Return the largest number that fits, 0 if none fits."""
     return bisect(range(MOST), False, least, key=lambda number: not fits(number)) - 1 if fits(least) else 0

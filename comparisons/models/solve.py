@@ -1,8 +1,8 @@
-"""The one place that knows every solver: a resolved model in, a Solution or a History out.
+"""Dispatch of a resolved model to its solver, for a Solution or a History.
 
-The solvers are imported when they are first used, so that asking for help stays quick. A model is warmed up
-first: what a process pays once, to import and compile, counts neither as set-up nor as solving
-(`sheetbench.clock`); the springs of a lattice count as set-up.
+Solvers are imported on first use, to keep `--help` fast. A model is warmed up first: the time for imports and
+compiling, spent once per process, counts neither as set-up nor as solving (`sheetbench.clock`). The
+calibration of a lattice counts as set-up.
 """
 
 from __future__ import annotations
@@ -31,17 +31,15 @@ from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
 
-Watch = Callable[[Iteration], None]  # called once an iteration
-EVEN, SETTLED = 0.02, 5.0  # of the duration, or s, until which steps grow and their pace is no estimate
+Watch = Callable[[Iteration], None]  # called at every iteration
+EVEN, SETTLED = 0.02, 5.0  # of the duration, or s: until then steps grow and no remaining time is shown
 COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
 
-def solve(model: Resolved[Any], name: str = "") -> Solution:
-    """Return the static answer of a model, on warm code; name: what to call it instead of its own.
-
-    The context's progress is called with what is being done, and with every iteration. A solve that fails is
-    a status.
-    """
+def solve(model: Resolved[Any], name: str = "", near: Any = None) -> Solution:
+    """Return the static answer of a model after its warm-up; name: shown in place of its own; near: a shape
+    to start from, in the form of `lumped.solve` and `fem_reference.solve`. The context's progress is called
+    at the start and at every iteration. A failed solve is reported as a status."""
     spec, scene = model.spec, model.scene
     doing = f"solving {name or plugins.shown_name(spec.model)}"
     work = Work(", ".join(filter(None, [doing, mesh(scene, spec)])), model.size)
@@ -52,47 +50,51 @@ def solve(model: Resolved[Any], name: str = "") -> Solution:
         progress(work.at(iteration.load_factor))
 
     warm(spec.model)
-    began = now()
+    start = now()
     if spec.MASSES:
         assert model.springs
-    preparing = now() - began
-    solution = _solve(model, watch)
-    spent = solution.setup_seconds + preparing
-    drawn = solution.mesh
+    calibration_seconds = now() - start
+    solution = _solve(model, watch, near)
+    field_mesh = solution.mesh
     if not scene.uniform or scene.pierced:
-        drawn = _with_composition(drawn, scene)
-    named = name or solution.model
-    return replace(solution, model=named, setup_seconds=spent, points=dict(scene.probes), mesh=drawn)
+        field_mesh = _with_composition(field_mesh, scene)
+    return replace(
+        solution,
+        model=name or solution.model,
+        setup_seconds=solution.setup_seconds + calibration_seconds,
+        points=dict(scene.probes),
+        mesh=field_mesh,
+    )
 
 
 def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
-    """Return the mesh with what each of its cells is made of, as its middle is, and what share of a lattice's
-    lies on the sheet."""
-    places = [mesh.points[nodes, :2] for _, nodes in mesh.cells]
-    found = [composition_at(scene, at.mean(axis=1)) for at in places]
-    of_cells = {name: [one[name] for one in found] for name in found[0]}
+    """Return the mesh with material and thickness as cell data, taken at the cells' middles; a lattice's also
+    with the share of each cell that lies on the sheet."""
+    corners = [mesh.points[nodes, :2] for _, nodes in mesh.cells]
+    compositions = [composition_at(scene, at.mean(axis=1)) for at in corners]
+    cell_data = {name: [block[name] for block in compositions] for name in compositions[0]}
     if scene.pierced and mesh.cells[0][0] == "line":
-        of_cells["share"] = [share_of(scene, at) for at in places]
-    return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **of_cells})
+        cell_data["share"] = [share_of(scene, at) for at in corners]
+    return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **cell_data})
 
 
-def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
+def _solve(model: Resolved[Any], watch: Watch | None, near: Any = None) -> Solution:
     spec, scene = model.spec, model.scene
     if isinstance(spec, Lattice):
         import lumped
 
         branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
         calibrate = None if model.fitted or spec.calibration is None else partial(_springs, model)
-        solution = lumped.solve(
-            scene, model.springs, linear=spec.linear, branch=branch, progress=watch, calibrate=calibrate
-        )
+        keywords: dict[str, Any] = {"linear": spec.linear, "branch": branch, "calibrate": calibrate}
+        solution = lumped.solve(scene, model.springs, near=near, progress=watch, **keywords)
         return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference
 
         elements = tuple(spec.counts(scene)[:2])
         try:
-            return fem_reference.solve(scene, spec.kind, elements=elements, progress=watch, **spec.options)
+            keywords = {"elements": elements, "near": near, **spec.options}
+            return fem_reference.solve(scene, spec.kind, progress=watch, **keywords)
         except NoMesh as error:
             return _unanswered(
                 scene, spec, f"no mesh of {spec.size} elements, other numbers may have one: {error}"
@@ -102,14 +104,14 @@ def _solve(model: Resolved[Any], watch: Watch | None) -> Solution:
 
 
 def _springs(model: Resolved[Any], scene: Scene) -> Any:
-    """Return the springs of a scene with other numbers by the same choices."""
+    """Return the springs of a scene with other parameters by the model's choices."""
     return model.on(scene).springs
 
 
-def _unanswered(scene: Scene, spec: Elements, why: str) -> Solution:
-    """Return a row without numbers, its mesh the probes alone."""
+def _unanswered(scene: Scene, spec: Elements, reason: str) -> Solution:
+    """Return a failed solution with NaN as displacement; its mesh consists of the probes."""
     points = scene.probe_points()
-    places, nowhere = np.column_stack([points, np.zeros(len(points))]), np.full((len(points), 3), np.nan)
+    positions, no_value = np.column_stack([points, np.zeros(len(points))]), np.full((len(points), 3), np.nan)
     return Solution(
         model=spec.kind,
         label=f"{spec.kind} {spec.size}",
@@ -123,35 +125,32 @@ def _unanswered(scene: Scene, spec: Elements, why: str) -> Solution:
         sample=lambda points: np.full((len(points), 3), np.nan),
         reactions={},
         energies={},
-        mesh=FieldMesh(places, [("vertex", np.arange(len(points))[:, None])], {"displacement": nowhere}),
-        remarks=(why,),
+        mesh=FieldMesh(positions, [("vertex", np.arange(len(points))[:, None])], {"displacement": no_value}),
+        remarks=(reason,),
     )
 
 
 def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings: Any) -> History:
-    """Return a model's motion over `duration` [s]; doing: what progress calls it; settings: those of its own
-    `simulate`.
-
-    Raises BadInput for a plug-in that does not move.
-    """
+    """Return a model's motion over `duration` [s]; doing: text for progress; settings: keywords of the
+    model's `simulate`. Raises BadInput for a plug-in without motion."""
     spec, scene, progress = model.spec, model.scene, context().progress
     doing, pace = doing or f"simulating {plugins.shown_name(spec.model)}", Pace(duration)
     progress(Work(doing))
-    began = now()
+    start = now()
 
-    def reached(time: float) -> None:
-        soon = pace.remaining(time) if time >= EVEN * duration or now() - began > SETTLED else ""
-        progress(Work(f"{doing}: {time:.3g} of {duration:g} s{soon}"))
+    def report(time: float) -> None:
+        remaining = pace.remaining(time) if time >= EVEN * duration or now() - start > SETTLED else ""
+        progress(Work(f"{doing}: {time:.3g} of {duration:g} s{remaining}"))
 
     if isinstance(spec, Elements):
         import fem_reference
 
-        settings |= {"elements": tuple(spec.counts(scene)[:2]), **spec.options, "progress": reached}
+        settings |= {"elements": tuple(spec.counts(scene)[:2]), **spec.options, "progress": report}
         return fem_reference.simulate(scene, spec.kind, duration, **settings)
     if isinstance(spec, Lattice):
         import lumped
 
-        history = lumped.simulate(scene, model.springs, duration, progress=reached, **settings)
+        history = lumped.simulate(scene, model.springs, duration, progress=report, **settings)
         return replace(history, settings={**history.settings, **model.reasons})
     outside = plugins.moving(spec.model)
     return outside.simulate(scene, plugins.settings_of(outside, spec.settings), duration, **settings)
@@ -159,7 +158,7 @@ def simulate(model: Resolved[Any], duration: float, doing: str = "", **settings:
 
 @cache
 def warm(model: str) -> None:
-    """Import and compile what a model needs, once in a process: solve a coarse sheet, load a plug-in."""
+    """Import and compile a model's code, once per process, by a solve of a coarse sheet."""
     for coarse in COARSE:
         if coarse.model == model:
             _solve(resolve(load("one-edge-clamped"), coarse), None)
@@ -167,14 +166,14 @@ def warm(model: str) -> None:
     plugins.plugin(model)
 
 
-def warm_both(one: str, other: str) -> None:
-    """Compile what two models need side by side, the other's in a process of its own."""
-    seldom = "import gc; gc.set_threshold(10_000)"  # compiling leaves little garbage
-    code = f"{seldom}; from comparisons.models.solve import warm; warm({other!r})"
+def warm_both(first: str, second: str) -> None:
+    """Compile the code of two models in parallel, the second in a process of its own."""
+    few_collections = "import gc; gc.set_threshold(10_000)"  # compiling leaves little garbage
+    code = f"{few_collections}; from comparisons.models.solve import warm; warm({second!r})"
     command = [sys.executable, "-c", code]
-    with stopped(), Popen(command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as beside:
+    with stopped(), Popen(command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as process:
         try:
-            warm(one)
-            beside.wait()
+            warm(first)
+            process.wait()
         finally:
-            beside.kill()
+            process.kill()

@@ -1,9 +1,9 @@
-"""Models as users name them: a lattice, finite elements, or a program from outside.
+"""Specifications of models: a lattice, finite elements, or an external model.
 
-A spec is frozen, says nothing of a scene, and leaves open (None) what `comparisons.models.resolve` is to
-choose. It reads and writes itself as text, `NAME:key=value,key=value`, and as JSON, a name and settings.
-Sizes are numbers of masses or of elements along the shorter side, with cells as square as that allows; `NxM`
-and `NxMxL` say it in full (`comparisons.models.grids`).
+A spec is frozen and independent of a scene; `comparisons.models.resolve` chooses settings that are None. It
+is read and written as text, `NAME:key=value,key=value`, and as JSON, a name and settings. Sizes are numbers
+of masses or elements along the shorter side, with nearly square cells, or in full `NxM` and `NxMxL`
+(`comparisons.models.grids`).
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ _COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
 
 @dataclass(frozen=True)
 class Spec(ABC):
-    """What all specs have in common; its fields are the settings of the model. MASSES: whether its size is a
-    number of masses, and not of elements."""
+    """Base class of specs; its fields are the settings of the model. MASSES: whether its size is a number of
+    masses, and not of elements."""
 
     MASSES: ClassVar = False
 
@@ -49,21 +49,21 @@ class Spec(ABC):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What is not left open, as plain JSON data by the names that users write."""
-        given = {one: getattr(self, one.name) for one in fields(self)}
+        """Settings that differ from their defaults, as plain JSON data under the users' names."""
+        values = {entry: getattr(self, entry.name) for entry in fields(self)}
         return {
-            str(one.metadata.get("key", one.name)): _data(value)
-            for one, value in given.items()
-            if type(value) is not type(one.default) or value != one.default
+            str(entry.metadata.get("key", entry.name)): _data(value)
+            for entry, value in values.items()
+            if type(value) is not type(entry.default) or value != entry.default
         }
 
     def but(self, **settings: Any) -> Self:
-        """Return the same model with other values of some settings."""
+        """Return the spec with other values of some settings."""
         return replace(self, **settings)
 
     def counts(self, scene: Scene) -> list[int]:
         """Return masses (nx, ny, layers) on a scene, or elements (nx, ny) and bricks through the thickness;
-        none of a program."""
+        an empty list for a program."""
         return []
 
     def __str__(self) -> str:
@@ -79,12 +79,12 @@ class Spec(ABC):
 
     @property
     def size(self) -> str:
-        """The grid or the elements; nothing where they are left open."""
+        """The grid or the elements as text, "" if open."""
         return "".join(counted(self.settings[name]) for name in SIZES if name in self.settings)
 
     @property
     def series(self) -> str:
-        """What stays the same as the grid is refined: the model's name, calibration and other settings."""
+        """Label of a mesh refinement series: the model's name and settings without its size."""
         settings = self.settings
         grid = settings.get("grid")
         parts = [str(settings.get("calibration", ""))]
@@ -99,10 +99,27 @@ class Spec(ABC):
 
 @dataclass(frozen=True)
 class Lattice(Spec):
-    """A lattice: grid, as `comparisons.models.grids` reads it; calibration, a name or "auto"; k [N/m];
-    layer_distance [m]; grading, a number, towards some edges, or "auto". linear: one step with the flat
-    sheet's tangent; branch: one of `choices.BRANCHES`; masses: how modes share out the mass, one of
-    `choices.MASSES`."""
+    """The lumped lattice as a model.
+
+    Parameters
+    ----------
+    grid : int, tuple of int or str, optional
+        Masses along the shorter side, along x and y, or with layers: 9, (9, 13), "9x13x3".
+    calibration : str, optional
+        One of `choices.CALIBRATIONS`, or "auto".
+    k : float [N/m], optional
+        Stiffness of every spring, for the calibration "uniform".
+    layer_distance : float [m], optional
+        Distance of the layers.
+    grading : float, Grading or str, optional
+        From 0 (equal cells) to 1, towards some edges as "0.5:x0", or "auto".
+    linear : bool, optional
+        One step with the flat sheet's tangent.
+    branch : {"path", "buckled"}, optional
+        The equilibrium on the load path, or a stable one along its buckling mode.
+    masses : str, optional
+        Distribution of the mass for modes, one of `choices.MASSES`.
+    """
 
     NAME: ClassVar = "lumped"
     MASSES: ClassVar = True
@@ -125,9 +142,27 @@ class Lattice(Spec):
 
 @dataclass(frozen=True)
 class Elements(Spec):
-    """A finite-element reference: kind, "plate", "shell" or "solid"; count: of elements along the shorter
-    side, or (nx, ny); law: of strain, of `choices.STRAIN_LAWS`; branch as of a lattice; the
-    others as `fem_reference` has them (`fem_reference.options`)."""
+    """A finite-element reference as a model.
+
+    Parameters
+    ----------
+    kind : {"shell", "plate", "solid"}, optional
+        The reference.
+    count : int or (int, int), optional
+        Elements along the shorter side, or along x and y.
+    law : str, optional
+        Law of strain of a shell or solid, one of `choices.STRAIN_LAWS`.
+    graded : bool, optional
+        Elements of plate or shell finer towards the edges.
+    layers : int, optional
+        Bricks of a solid through the thickness.
+    clamp : str, optional
+        Clamp of a solid, one of `fem_reference.solid.supports.CLAMPS`.
+    grading : {"edges", "uniform"}, optional
+        Bricks finer towards the edges, or equal.
+    branch : {"path", "buckled"}, optional
+        The equilibrium on the load path, or a stable one along its buckling mode.
+    """
 
     kind: str = "shell"
     count: Count | None = field(default=None, metadata={"key": "elements"})
@@ -144,11 +179,11 @@ class Elements(Spec):
 
     @classmethod
     def given(cls, reference: Elements | str, keywords: Mapping[str, Any]) -> Elements:
-        """Return the reference that a function is called with, changed by what flat keywords say; "path" is
-        the usual branch."""
+        """Return a function's reference with the values of its flat keywords; the value None and the branch
+        "path" change nothing."""
         spec = reference if isinstance(reference, Elements) else cls(reference)
-        known = {name: value for name, value in keywords.items() if value not in (None, "path")}
-        return spec.but(**{"count" if name == "elements" else name: value for name, value in known.items()})
+        changes = {name: value for name, value in keywords.items() if value not in (None, "path")}
+        return spec.but(**{"count" if name == "elements" else name: value for name, value in changes.items()})
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -156,12 +191,12 @@ class Elements(Spec):
 
     @property
     def options(self) -> dict[str, Any]:
-        """What the reference's own solver takes, beside the number of elements."""
+        """Keywords of the reference's solver, without the number of elements."""
         return {name: v for name, v in self.settings.items() if name != "elements"}
 
     @property
     def elements(self) -> Count:
-        """Along the shorter side, or (nx, ny)."""
+        """Number of elements along the shorter side, or (nx, ny)."""
         return ELEMENTS if self.count is None else self.count
 
     def counts(self, scene: Scene) -> list[int]:
@@ -172,8 +207,15 @@ class Elements(Spec):
 
 @dataclass(frozen=True)
 class External(Spec):
-    """A model from outside, by the name it is installed under, `FILE.py:OBJECT` or `exec:PROGRAM`, and its
-    own settings, plain JSON data."""
+    """An external model.
+
+    Parameters
+    ----------
+    name : str
+        Name of an installed plug-in, `FILE.py:OBJECT` or `exec:PROGRAM`.
+    own : mapping, optional
+        The model's settings, plain JSON data.
+    """
 
     name: str
     own: Mapping[str, Any] = field(default_factory=dict)
@@ -187,57 +229,53 @@ class External(Spec):
         return dict(self.own)
 
     def but(self, **settings: Any) -> External:
-        """Return the same model with other values of some settings."""
         return External(self.name, {**self.own, **settings})
 
 
 def spec_of(model: str, settings: Mapping[str, Any]) -> Spec:
-    """Return the spec of a name and settings as JSON has them. Raises BadInput for a setting that a lattice
-    or a reference does not have."""
+    """Return the spec of a name and JSON settings. Raises BadInput for an unknown setting."""
     if model not in (Lattice.NAME, *REFERENCES):
         return External(model, settings)
-    own: dict[str, Any] = {
+    values: dict[str, Any] = {
         key: tuple(value) if isinstance(value, list) else value for key, value in settings.items()
     }
-    names = [one.name for one in fields(Lattice if model == Lattice.NAME else Elements)]
+    names = [entry.name for entry in fields(Lattice if model == Lattice.NAME else Elements)]
     if model == Lattice.NAME:
-        if unknown := [key for key in own if key not in names]:
+        if unknown := [key for key in values if key not in names]:
             raise BadInput(f"{model}: no setting '{unknown[0]}'; it has {', '.join(names)}")
-        return Lattice(**own)
-    if set(own) - {"elements", *names[1:]}:
+        return Lattice(**values)
+    if set(values) - {"elements", *names[1:]}:
         import fem_reference
 
         fem_reference.check(model, settings)
-    return Elements(model, own.pop("elements", None), **own)
+    return Elements(model, values.pop("elements", None), **values)
 
 
 def lattices(
-    scene: Scene, grids: Iterable[GridLike], calibrations: Iterable[str], usual: Lattice | None = None
+    scene: Scene, grids: Iterable[GridLike], calibrations: Iterable[str], base: Lattice | None = None
 ) -> list[Lattice]:
-    """Return every calibration on every grid, in their order; usual: what else they have. Raises BadInput for
-    what is not a grid."""
+    """Return every calibration on every grid; base: other settings. Raises BadInput for an invalid grid."""
     shapes = [scene_grid(scene, grid) for grid in grids]
-    return [(usual or Lattice()).but(grid=n, calibration=name) for name in calibrations for n in shapes]
+    return [(base or Lattice()).but(grid=n, calibration=name) for name in calibrations for n in shapes]
 
 
 def references(kind: str, elements: Iterable[str]) -> list[Elements]:
-    """Return a finite-element model on several meshes. Raises BadInput for what is not a number of
-    elements."""
+    """Return a finite-element model on several meshes. Raises BadInput for an invalid number of elements."""
     return [Elements(kind, parse_elements(text, f"--{kind}")) for text in elements]
 
 
 def parse(text: Spec | str) -> Spec:
-    """Return a spec as it is, or that of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, and
-    `:key=value,key=value`.
+    """Return the spec of `NAME`, `FILE.py`, `FILE.py:OBJECT` or `exec:PROGRAM`, followed by
+    `:key=value,key=value`; a spec passes unchanged.
 
-    Values are as in JSON, `8x4` is a list of numbers, anything else plain text. Raises BadInput.
+    Values are JSON, lists of numbers as `8x4`, or plain text. Raises BadInput.
     """
     if isinstance(text, Spec):
         return text
-    if (found := _PROGRAM.fullmatch(text)) is not None:
-        name, rest = found["file"], found["rest"] or ""
-    elif (found := _FROM_FILE.fullmatch(text)) is not None:
-        name, rest = f"{found['file']}:{found['object'] or plugins.OBJECT}", found["rest"] or ""
+    if (match := _PROGRAM.fullmatch(text)) is not None:
+        name, rest = match["file"], match["rest"] or ""
+    elif (match := _FROM_FILE.fullmatch(text)) is not None:
+        name, rest = f"{match['file']}:{match['object'] or plugins.OBJECT}", match["rest"] or ""
     else:
         name, _, rest = text.partition(":")
     settings: dict[str, Any] = {}
@@ -253,17 +291,17 @@ def parse(text: Spec | str) -> Spec:
 
 
 def unlike(name: str, taken: Collection[str]) -> str:
-    """Return the name, or with the first number after it that makes it a new one."""
+    """Return a name that is not taken: the given one, or one with the first free number as suffix."""
     return next(n for n in (name, *(f"{name}-{i}" for i in range(2, len(taken) + 3))) if n not in taken)
 
 
 def items(text: str | None) -> list[str]:
-    """Return the parts of a list as people write it: 5,9,17."""
+    """Return the parts of a comma-separated list."""
     return [part.strip() for part in (text or "").split(",") if part.strip()]
 
 
 def counted(value: Any) -> str:
-    """Return a setting as people write it, a size 9×13."""
+    """Return a setting as text for labels, a size as 9×13."""
     if isinstance(value, float):
         return f"{value:g}"
     return "×".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
@@ -274,7 +312,7 @@ def _value(text: str) -> Any:
         return [int(part) for part in text.split("x")]
     try:
         value = json.loads(text)
-    except (ValueError, RecursionError):  # the former of an integer of thousands of digits too
+    except (ValueError, RecursionError):  # ValueError also for an integer of thousands of digits
         return text
     if isinstance(value, int | float) and not abs(value) <= LARGEST:
         raise BadInput(f"--model: {text[:40]}: a number of at most {LARGEST:g} is needed")
@@ -282,7 +320,7 @@ def _value(text: str) -> Any:
 
 
 def _data(value: Any) -> Any:
-    """Return a field's value as JSON has it."""
+    """Return a field's value as JSON data."""
     if isinstance(value, Grading):
         return str(value)
     if isinstance(value, np.ndarray | np.generic):

@@ -1,7 +1,7 @@
-"""The file that `sheetbench new` writes: a small scene, every key with its unit and what it is.
+"""The file of `sheetbench new`: a small scene, every key with its unit and description.
 
-What the scene has no use for yet stands below, commented out: without the leading "# " of its lines a block
-is in force, and its own comments still are comments. The comments are the sentences of the types.
+Optional parts follow as comments: a block takes effect when the leading "# " of its lines is deleted, and its
+own comments remain comments. The descriptions are the schema's.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from sheetbench.scenes.objects.sheet import EDGES, Gravity, Sheet
 from sheetbench.scenes.objects.supports import Clamped
 from sheetbench.scenes.scene import Scene
 
-WIDTH = 100  # of a comment
+WIDTH = 100  # of a comment line
 SCHEMA = "scene.schema.json"  # beside the file, for editors
 EARTH = Gravity(acceleration=(0.0, 0.0, -9.81))
 
@@ -30,8 +30,7 @@ def template(
     clamped: Sequence[str] = ("x0",),
     pressure: float = 0.0,
 ) -> str:
-    """Return a sheet under its own weight and a pressure [Pa], clamped at the named edges, as commented
-    TOML."""
+    """Return commented TOML of a sheet under its weight and a pressure [Pa], clamped at some edges."""
     scene = Scene(
         name=name,
         sheet=sheet,
@@ -57,12 +56,12 @@ def template(
         "# All keys: sheetbench check --schema --out DIR, in scene.md\n",
     ]
     free = next((edge for edge in EDGES if edge not in clamped), "x1")
-    for heading, table in _offered(sheet, free):
+    for heading, table in _optional_parts(sheet, free):
         parts.append(_commented(_block(heading, table, about=heading not in "".join(parts))))
     return "\n".join(parts)
 
 
-def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
+def _optional_parts(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
     middle, corner = [length / 2.0 for length in sheet.lengths], list(sheet.lengths)
     rising = {"time": [0.0, 0.5], "factor": [0.0, 1.0]}
     chain = {"segments": 8, "bending_stiffness": 0.01, "line_density": 0.05, "radius": 1.5e-3}
@@ -83,12 +82,14 @@ def _offered(sheet: Sheet, edge: str) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _block(heading: str, table: Mapping[str, Any], about: bool = True) -> str:
-    """A table of the file: what it is, its heading, and every key below what it is."""
+    """Return a table of the file: its description, its heading, and every key with its description."""
     schema = for_editors(Scene)
     top = heading.strip("[]")
     node = schema["properties"][top] if top else schema
     of_kind = next(
-        one for one in branches(schema, node.get("items", node)) if kind(one) in (None, table.get("kind"))
+        branch
+        for branch in branches(schema, node.get("items", node))
+        if kind(branch) in (None, table.get("kind"))
     )
     lines = [*(_comment(node["description"]) if about else ()), heading] if top else []
     for key, value in table.items():

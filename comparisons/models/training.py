@@ -1,9 +1,9 @@
 """Targets of fitted calibrations: the shell's displacements and frequencies on training scenes.
 
-Unless scenes are given, the sheet trains under its own weight with one edge and with two adjacent edges
-clamped: what a user can also measure. fit-static sees the displacement at 8 × 8 plan points off the edges x0
-and y0, fit-modal the first four natural frequencies of each scene: higher ones have too few masses a wave on
-9 × 9, and pull the springs off.
+The default scenes are the sheet under its own weight with one edge and with two adjacent edges clamped, both
+easy to measure. fit-static uses displacements at 8 × 8 plan points off the edges x0 and y0, fit-modal the
+first four natural frequencies of each scene: higher modes have too few masses per wavelength on 9 × 9 and
+spoil the fit.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ WEIGHT = Gravity(acceleration=(0.0, 0.0, -9.81))
 
 
 def training_scenes(sheet: Sheet, material: Material) -> tuple[Scene, ...]:
-    """Return the sheet under its own weight with one edge, and with two adjacent edges clamped."""
+    """Return the sheet under its own weight, clamped at one edge and at two adjacent edges."""
     supports = {
         "one-edge-clamped": (Clamped(edge="x0"),),
         "two-edges-clamped": (Clamped(edge="x0"), Clamped(edge="y0")),
@@ -54,15 +54,15 @@ def fitted(
     grading: Graded = 0.0,
     training: Sequence[Scene] | None = None,
 ) -> Calibration:
-    """Springs fitted to the shell on the training scenes, which have this sheet and material; computed once a
-    process. Raises BadInput for a training scene without a static answer that the method could use."""
-    chosen = training_scenes(sheet, material) if training is None else training
-    texts = tuple(scene.model_dump_json(by_alias=True, exclude_none=True) for scene in chosen)
-    for scene, text in zip(chosen, texts, strict=True):
+    """Return springs fitted to the shell on training scenes of this sheet and material; computed once per
+    process. Raises BadInput for a training scene without a usable static answer."""
+    scenes = training_scenes(sheet, material) if training is None else training
+    texts = tuple(scene.model_dump_json(by_alias=True, exclude_none=True) for scene in scenes)
+    for scene, text in zip(scenes, texts, strict=True):
         shell = size(scene, Elements("shell", ELEMENTS))
         context().progress(Work(f"training on {scene.name}: the shell", shell))
-        _target(text, method == "fit-modal")  # and kept
-    context().progress(Work("fitting springs", size(chosen[0], Lattice(grid))))
+        _target(text, method == "fit-modal")  # cached for `_fitted`
+    context().progress(Work("fitting springs", size(scenes[0], Lattice(grid))))
     return _fitted(texts, grid, method, layer_distance, grading)
 
 
@@ -72,12 +72,12 @@ def _fitted(
 ) -> Calibration:
     targets = [_target(text, method == "fit-modal") for text in texts]
     sheet, material = targets[0].scene.sheet, targets[0].scene.material
-    own: dict[str, Any] = {"layer_distance": layer_distance, "grading": grading}
-    return lumped.calibrate(sheet, material, grid, method, targets=targets, **own)
+    options: dict[str, Any] = {"layer_distance": layer_distance, "grading": grading}
+    return lumped.calibrate(sheet, material, grid, method, targets=targets, **options)
 
 
 def training_points(scene: Scene) -> np.ndarray:
-    """Plan points (n, 2) [m], evenly over the sheet, none on its edges x0 and y0."""
+    """Return evenly spaced plan points (n, 2) [m] of a sheet, none on its edges x0 and y0."""
     x, y = (np.linspace(length / POINTS, length, POINTS) for length in scene.sheet.lengths)
     return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
 

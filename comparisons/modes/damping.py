@@ -1,7 +1,7 @@
-"""Damping of modes by what the material has of it.
+"""Damping of natural modes by the material.
 
-All springs and moduli have their dampers and branches in proportion to their stiffness, so that a mode of K
-about the flat sheet at ω is one equation,
+Dampers and branches of all springs and moduli are proportional to their stiffness, so a mode of K about the
+flat sheet at ω follows one equation,
 
     s² + α s + ω² (E(s)/E∞ + τ s) = 0,    E(s)/E∞ = 1 + Σ a_i s τ_i/(1 + s τ_i),    ζ = −Re s/|s|,
 
@@ -21,7 +21,7 @@ from sheetbench.scenes import Material
 
 @dataclass(frozen=True)
 class ModeDamping:
-    """A mode's frequency [Hz] as it swings, damping ratio requested (None: nothing) and got."""
+    """Damping of a mode: its damped frequency [Hz], requested (if any) and obtained damping ratio."""
 
     number: Annotated[int, NUMBER("d", "mode")]
     frequency_hz: Annotated[float, HERTZ(".4g", "frequency")]
@@ -30,24 +30,24 @@ class ModeDamping:
 
     @property
     def miss(self) -> Annotated[float | None, PERCENT("z.1f", "difference")]:
-        """Relative difference of what is got."""
+        """Relative difference of the obtained from the requested damping ratio."""
         return self.got / self.asked - 1.0 if self.asked else None
 
 
 def mode_damping(material: Material, frequencies: Iterable[float]) -> tuple[ModeDamping, ...]:
-    """Return the damping of modes of these undamped frequencies [Hz] at the long-time modulus."""
+    """Return the damping of modes; frequencies: undamped [Hz], at the long-time modulus."""
     tau, alpha, (low, high) = material.dashpot_time, material.damping_rate, material.band or (0.0, inf)
-    found = []
+    modes = []
     for number, frequency in enumerate(frequencies, start=1):
         s = material.branches.pole(2.0 * pi * float(frequency), tau, alpha)
-        swings = s.imag / (2.0 * pi)
-        within = material.loss_factor and low <= swings <= high
-        wanted = 0.5 * material.loss_factor if material.loss_factor and within else None
-        found.append(ModeDamping(number, swings, wanted, -s.real / abs(s)))
-    return tuple(found)
+        damped_frequency = s.imag / (2.0 * pi)
+        in_band = low <= damped_frequency <= high
+        requested = 0.5 * material.loss_factor if material.loss_factor and in_band else None
+        modes.append(ModeDamping(number, damped_frequency, requested, -s.real / abs(s)))
+    return tuple(modes)
 
 
 def damping_table(modes: Iterable[ModeDamping], caption: str, name: str) -> Table:
-    """Return a row per mode: what was requested, what is got."""
+    """Return a table of modes with their requested and obtained damping ratios."""
     fields = ("number", "frequency_hz", "asked", "got", "miss")
     return Table.of(ModeDamping, modes, caption, name, fields=fields)

@@ -1,18 +1,17 @@
-"""Modes of two models paired by shape, and the kinds of those of a flat sheet.
+"""Pairing of two models' modes by shape, and the kinds of a flat sheet's modes.
 
 The modal assurance criterion of shapes a and b is MAC = (a·Mb)² / ((a·Ma)(b·Mb)): 1 for equal shapes, 0 for
-shapes orthogonal in the mass M. Shapes are sampled at the centres of equal plan cells, so that M is the
-sheet's mass by the midpoint rule, and a factor that cancels. The pairing is the assignment with the largest
-sum of MAC (Kuhn and Munkres; Allemang, Sound and Vibration 37, 2003, for the criterion). Modes of one
-frequency are defined up to a rotation among themselves: those of the second model are turned to the first's
-by an orthogonal Procrustes.
+shapes orthogonal in the mass M. Shapes are sampled at the centres of equal plan cells, where M by the
+midpoint rule is a factor that cancels. The pairing is the assignment with the largest sum of MAC (Kuhn and
+Munkres; Allemang, Sound and Vibration 37, 2003, for the criterion). Modes of equal frequency are defined up
+to a rotation among each other: an orthogonal Procrustes rotates the second model's modes to the first's.
 
-Kinds are bending, twist, bending across, in plane. In plane: most of the mass-weighted square of the
-displacement is along the sheet. Of the others the deflection w(x, y) is split by its singular values, w ≈ σ
-f(along) g(across); g without a change of sign is bending, one change is twist, more is bending across
-(chordwise). The axis runs from the supports to the free edge, along the longer side of a free sheet, and
-between two supported edges; a sheet held at adjacent edges has none, and its modes out of plane are all
-bending.
+Kinds are bending, twist, bending across, in plane. A mode is in plane if most of the mass-weighted square of
+its displacement is along the sheet. The deflection w(x, y) of any other mode is split by its singular values,
+w ≈ σ f(along) g(across): a g without a change of sign is bending, with one change twist, with more bending
+across (chordwise). The axis runs from the supports to the free edge, along the longer side of a free sheet,
+and between two supported edges; a sheet held at adjacent edges has no axis, and all its modes out of plane
+count as bending.
 """
 
 from __future__ import annotations
@@ -30,20 +29,17 @@ from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.objects.grid import near_square
 from sheetbench.scenes.objects.supports import place
 
-Shaped = tuple[str, np.ndarray, np.ndarray]  # a model, its frequencies or load factors, rising, and shapes
+ModeSet = tuple[str, np.ndarray, np.ndarray]  # a model, its frequencies or load factors, rising, and shapes
 CELLS = 32  # plan cells along the shorter side; the tenth mode has some five half-waves
-SAME = 1e-6  # relative difference of frequencies that are one: above the eigensolvers' error
-LEAST = 0.5  # MAC from which on two shapes are taken for one mode
+REPEATED = 1e-6  # relative difference below which frequencies count as equal: above the eigensolvers' error
+LEAST = 0.5  # MAC from which two shapes count as one mode
 
 
 @dataclass(frozen=True)
 class Pair:
-    """Mode `number` of model `of`, from 1, and the mode of model `against` with the same shape.
-
-    is_: its number there, None where no shape of the first modes answers; mac: of the two shapes; relative:
-    the difference of frequency or load factor, of the
-    reference's; kind: of the shape, None about a deformed sheet.
-    """
+    """Mode `number` of model `of`, from 1, and the mode of model `against` with an equal shape. is_: the
+    latter's number, None without a counterpart; mac: of both shapes; relative: difference of frequency or
+    load factor over the reference's; kind: of the shape, None about a deformed sheet."""
 
     of: str
     number: int
@@ -55,29 +51,29 @@ class Pair:
 
     @property
     def swapped(self) -> bool:
-        """Whether the mode stands at another place in the reference's list."""
+        """Whether the mode has another number in the reference's list."""
         return self.is_ not in (None, self.number)
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the pair as JSON data."""
         return {key.rstrip("_"): value for key, value in asdict(self).items()}
 
 
-def pairs_of(first: Shaped, others: Sequence[Shaped], kinds: Sequence[str | None]) -> tuple[Pair, ...]:
-    """Every mode of the first model with the mode of the same shape of each other; kinds: of the first's."""
-    found, (of, own, first_shapes) = [], first
+def pairs_of(first: ModeSet, others: Sequence[ModeSet], kinds: Sequence[str | None]) -> tuple[Pair, ...]:
+    """Pair every mode of the first model with each other model's; kinds: of the first's modes."""
+    pairs, (of, first_values, first_shapes) = [], first
     for model, values, shapes in others:
         mac = assurance(first_shapes, shapes, values)
         for i, match in enumerate(matched(mac)):
             at = int(np.argmax(mac[i])) if match is None else match
-            off = None if match is None else float(own[i] / values[at] - 1.0)
+            relative = None if match is None else float(first_values[i] / values[at] - 1.0)
             is_ = None if match is None else match + 1
-            found.append(Pair(of, i + 1, model, is_, float(mac[i, at]), off, kinds[i]))
-    return tuple(found)
+            pairs.append(Pair(of, i + 1, model, is_, float(mac[i, at]), relative, kinds[i]))
+    return tuple(pairs)
 
 
 def cell_centres(sheet: Sheet) -> np.ndarray:
-    """Centres (n, 2) [m] of equal, near-square plan cells; y runs fastest."""
+    """Return the centres (n, 2) [m] of equal, near-square plan cells; y runs fastest."""
     axes = [
         (np.arange(count) + 0.5) * length / count
         for count, length in zip(near_square(sheet, CELLS), sheet.lengths, strict=True)
@@ -86,21 +82,21 @@ def cell_centres(sheet: Sheet) -> np.ndarray:
 
 
 def on_cells(scene: Scene, shapes: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """Shapes (count, n, 3), a function of plan points, at those centres, zero where there is no sheet."""
+    """Sample shapes, a function of plan points, at `cell_centres`: (count, n, 3), zero off the sheet."""
     plan = cell_centres(scene.sheet)
-    there = inside(scene, plan)
-    found = shapes(plan[there])
-    out = np.zeros((len(found), len(plan), 3))
-    out[:, there] = found
+    on_sheet = inside(scene, plan)
+    values = shapes(plan[on_sheet])
+    out = np.zeros((len(values), len(plan), 3))
+    out[:, on_sheet] = values
     return out
 
 
 def assurance(shapes: np.ndarray, others: np.ndarray, frequencies: np.ndarray) -> np.ndarray:
-    """MAC (m, k) of shapes (m, n, 3) and others (k, n, 3) sampled on equal cells; frequencies (k,): of the
-    others."""
+    """Return the MAC (m, k) of shapes (m, n, 3) and others (k, n, 3) sampled on equal cells; frequencies
+    (k,): of the others."""
     first, second = _normalised(shapes), _normalised(others)
     for group in _repeated(frequencies):
-        projected = first @ second[group].T  # of every first shape onto the group's
+        projected = first @ second[group].T  # every first shape onto the group
         nearest = np.argsort(-np.sum(projected**2, axis=1))[: len(group)]
         left, _, right = np.linalg.svd(projected[nearest], full_matrices=False)
         second[group[: len(nearest)]] = left @ right @ second[group]
@@ -108,13 +104,13 @@ def assurance(shapes: np.ndarray, others: np.ndarray, frequencies: np.ndarray) -
 
 
 def matched(mac: np.ndarray) -> list[int | None]:
-    """Return the column of every row, None where its MAC is below `LEAST`."""
+    """Return the column assigned to every row, None for a MAC below `LEAST`."""
     rows, columns = linear_sum_assignment(mac, maximize=True)
-    found: list[int | None] = [None] * len(mac)
+    out: list[int | None] = [None] * len(mac)
     for row, column in zip(rows, columns, strict=True):
         if mac[row, column] >= LEAST:
-            found[row] = int(column)
-    return found
+            out[row] = int(column)
+    return out
 
 
 def _normalised(shapes: np.ndarray) -> np.ndarray:
@@ -123,27 +119,27 @@ def _normalised(shapes: np.ndarray) -> np.ndarray:
 
 
 def _repeated(frequencies: Sequence[float] | np.ndarray) -> Iterator[np.ndarray]:
-    """Indices of frequencies, ascending, that are one."""
-    breaks = np.flatnonzero(np.diff(frequencies) > SAME * np.asarray(frequencies)[1:]) + 1
+    """Yield the indices of each group of equal frequencies, ascending."""
+    breaks = np.flatnonzero(np.diff(frequencies) > REPEATED * np.asarray(frequencies)[1:]) + 1
     for group in np.split(np.arange(len(frequencies)), breaks):
         if len(group) > 1:
             yield group
 
 
 BENDING, TWIST, ACROSS, IN_PLANE = "bending", "twist", "bending across", "in plane"
-STILL = 0.05  # of the largest |g|: a change of sign below it is the discretisation's
+STILL = 0.05  # of the largest |g|: a change of sign below it comes from the discretisation
 
 
 def kinds(scene: Scene, shapes: np.ndarray, cells: int) -> list[str]:
-    """Return the kind of every shape (m, n, 3), sampled at `pairing.cell_centres` of `cells`: bending
-    numbered from 1, the others from their second on."""
-    axis, named = _axis(scene), list[str]()
-    counted = Counter[str]()
+    """Return the kind of every shape (m, n, 3), sampled at `cell_centres` with `cells` along the shorter
+    side; bending is numbered from 1, other kinds from their second mode."""
+    axis, names = _axis(scene), list[str]()
+    counts = Counter[str]()
     for shape in shapes:
         kind = _kind(shape.reshape(*near_square(scene.sheet, cells), 3), axis)
-        counted[kind] += 1
-        named.append(kind if kind != BENDING and counted[kind] == 1 else f"{kind} {counted[kind]}")
-    return named
+        counts[kind] += 1
+        names.append(kind if kind != BENDING and counts[kind] == 1 else f"{kind} {counts[kind]}")
+    return names
 
 
 def _kind(shape: np.ndarray, axis: int | None) -> str:

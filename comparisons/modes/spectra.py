@@ -1,9 +1,9 @@
-"""Natural frequencies of a lattice beside those of a reference.
+"""Natural frequencies of a lattice and of references.
 
-About the undeformed, stress-free sheet, where loads, weight and actuators have no part in them, or about its
-equilibrium under its loads. A sheet that supports leave free to move has rigid motions, whose frequency is
-zero; they are counted and left out.
-Modes are listed lowest first; those of two models are paired by shape (`comparisons.modes.pairing`).
+Modes are computed about the undeformed, stress-free sheet, without loads, weight and actuators, or about the
+equilibrium under its loads. Rigid motions that supports leave free have frequency zero; they are counted and
+left out. Modes are listed lowest first; two models' modes are paired by shape
+(`comparisons.modes.pairing`).
 """
 
 from __future__ import annotations
@@ -43,71 +43,74 @@ def spectra(
     about: About = "flat",
     buckling: bool = False,
 ) -> Spectra:
-    """Return the spectra of the lattice and of the reference, or of each of several.
+    """Return the spectra of the lattice and of one or several references.
 
-    about: "flat", or "deformed" under the scene's loads; buckling: also the load factors at which lattice and
-    references buckle (not the plate, which is linear).
+    about: "flat", or "deformed" under the scene's loads; buckling: also compute the load factors at which
+    lattice and references buckle (not the plate, which is linear).
 
-    Raises SceneError for a scene that cannot be read, BadInput for choices that do not exist and a count
-    that a mesh cannot give, NoEquilibrium for deformed where a model has no stable equilibrium.
+    Raises SceneError for an unreadable scene, BadInput for unknown choices and a count above a mesh's
+    unknowns, NoEquilibrium if a model has no stable equilibrium to be "deformed" in.
     """
     scene = scene_of(scene)
     if not isinstance(count, int) or count < 1:
         raise BadInput(f"--count = {count}: a whole number, at least 1")
-    own = resolve(scene, lattice, "modes")
-    references = [reference] if isinstance(reference, str | Elements) else reference
-    models = [resolve(scene, Elements.given(one, {"elements": elements}), "modes") for one in references]
+    lumped_model = resolve(scene, lattice, "modes")
+    kinds = [reference] if isinstance(reference, str | Elements) else reference
+    references = [resolve(scene, Elements.given(kind, {"elements": elements}), "modes") for kind in kinds]
 
-    def starting(model: Resolved[Any]) -> None:
+    def report(model: Resolved[Any]) -> None:
         context().progress(Work(f"modes of {model.spec.model}", model.size))
 
-    buckled = tuple(_buckling(own, models, count)) if buckling else ()  # refused before anything is solved
-    expected = _expected(own, buckled[0]) if buckling else None
-    starting(own)
-    found = [_lattice(own, count, about)]
-    for model in models:
-        starting(model)
+    buckling_modes = tuple(_buckling(lumped_model, references, count)) if buckling else ()  # may refuse first
+    expected = _expected(lumped_model, buckling_modes[0]) if buckling else None
+    report(lumped_model)
+    found = [_lattice(lumped_model, count, about)]
+    for model in references:
+        report(model)
         found.append(_reference(model, count, about))
-    return Spectra(scene, tuple(found), about, _sag(scene, own.springs), buckled, expected)
+    return Spectra(scene, tuple(found), about, _sag(scene, lumped_model.springs), buckling_modes, expected)
 
 
-def _buckling(own: Resolved[Lattice], models: Sequence[Resolved[Elements]], count: int) -> Iterator[Buckling]:
-    """The buckling modes of the lattice, then of each reference but the plate."""
+def _buckling(
+    lattice: Resolved[Lattice], references: Sequence[Resolved[Elements]], count: int
+) -> Iterator[Buckling]:
+    """Yield the buckling modes of the lattice, then of each reference but the plate."""
     import fem_reference
     import lumped
 
-    yield lumped.buckling(own.scene, own.springs, count)
-    for model in models:
+    yield lumped.buckling(lattice.scene, lattice.springs, count)
+    for model in references:
         if model.spec.kind != "plate":
             context().progress(Work(f"buckling of {model.spec.model}", model.size))
             yield fem_reference.buckling(model.scene, model.spec.kind, model.spec.elements, count)
 
 
-def _expected(own: Resolved[Lattice], found: Buckling) -> tuple[float | None, ...] | NoEstimate:
-    """Return the grid error to expect of each of a lattice's load factors, from those of the same shapes on
-    the finer grid of `comparisons.models.expected_error`; or why there is none."""
+def _expected(lattice: Resolved[Lattice], coarse: Buckling) -> tuple[float | None, ...] | NoEstimate:
+    """Return the expected grid error of each of a lattice's load factors, or the reason for no estimate. The
+    estimate compares modes of equal shape on the finer grid of `comparisons.models.expected_error`."""
     import lumped
 
-    scene, count = own.scene, len(found.load_factors)
-    other = finer_of(scene, own.spec)
-    if isinstance(other, NoEstimate):
-        return other
-    finer = own.spec.but(grid=other[0])
+    scene, count = lattice.scene, len(coarse.load_factors)
+    refinement = finer_of(scene, lattice.spec)
+    if isinstance(refinement, NoEstimate):
+        return refinement
+    grid, ratio = refinement
+    finer = lattice.spec.but(grid=grid)
     if not has_room(scene, finer):
         return NoEstimate(f"{finer.size} masses take too much memory")
     fine = lumped.buckling(scene, resolve(scene, finer, "modes").springs, count)
     first, second = (
-        (one.model, one.load_factors, on_cells(scene, one.displacement)) for one in (found, fine)
+        (modes.model, modes.load_factors, on_cells(scene, modes.displacement)) for modes in (coarse, fine)
     )
     errors = [
-        "" if pair.is_ is None else grid_error(first[1][[i]], second[1][[pair.is_ - 1]], other[1])
+        "" if pair.is_ is None else grid_error(first[1][[i]], second[1][[pair.is_ - 1]], ratio)
         for i, pair in enumerate(pairs_of(first, [second], [None] * count))
     ]
     return tuple(None if isinstance(error, str) else error for error in errors)
 
 
 def _sag(scene: Scene, springs: Calibration) -> float | None:
-    """See `Spectra`. Actuators and obstacles are left out, for small displacements know none."""
+    """Return `Spectra.sag`, without actuators and obstacles, which a linear answer cannot include."""
     import lumped
 
     scene = scene.replace(actuators=(), obstacles=())
@@ -121,10 +124,10 @@ def _lattice(model: Resolved[Lattice], count: int, about: About) -> Spectrum:
     import lumped
 
     springs = model.springs
-    begin = now()
+    start = now()
     distribution = cast("lumped.Inertia | None", model.spec.masses) or lumped.usual_masses(springs)
     modes = lumped.modes(model.scene, springs, count, distribution, about)
-    seconds = now() - begin
+    seconds = now() - start
     settings = springs.settings | {"masses": distribution, **model.reasons}
     return Spectrum("lumped", f"lumped {springs.title}, {distribution} masses", settings, seconds, modes)
 

@@ -1,5 +1,5 @@
-"""A scene's lattice, linear about its equilibrium: matrices, state space of the lowest modes or of the most
-important states, their files: the answer of `sheetbench modes --state-space`."""
+"""A scene's lattice linearised about its equilibrium: matrices, a state space of the lowest modes or of the
+most important states, and their files: the answer of `sheetbench modes --state-space`."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ BALANCED = "balanced"
 UNITS = {"fx": "N", "fy": "N", "fz": "N", "curvature": "1/m", "x": "m", "y": "m", "z": "m"}
 UNITS |= dict.fromkeys(("kxx", "kyy", "kxy"), "1/m")
 EXPLANATION = (
-    "static: displacement of a probe per unit of a constant input; unit factor: a multiple of the scene's "
-    "load or gravity",
+    "static displacement: the steady displacement of a probe for a constant input of one unit; one unit of a "
+    "factor is the scene's own load or gravity",
     "--out DIR writes M, C, K, F, F_rate, G, H and ss_A to ss_D to linear.npz and linear.mat",
 )
 
@@ -44,13 +44,13 @@ POLES = (
     *(HERTZ(".5g", "frequency"), PERCENT("z.3g", "damping ratio"), TableUnit("1/s", "1/s")("z.5g", "real")),
     TableUnit("rad/s", "rad/s")(".5g", "imaginary"),
 )
-LOOSE, TIGHT = 0.1, 0.05  # bounds of a reduced model: complained of above, and advised instead
+LOOSE, TIGHT = 0.1, 0.05  # error bounds of a reduced model: a complaint above LOOSE advises TIGHT
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Linearisation(Answer):
-    """matrices: of all unknowns; modal: state space of the modes requested; balanced: what it was reduced to,
-    if it was; label: of the lattice."""
+    """A linearised lattice; matrices: of all unknowns; modal: state space of the requested modes; balanced:
+    its balanced truncation, if requested; label: of the lattice."""
 
     file_name = "linear"
     scene: Scene
@@ -62,23 +62,23 @@ class Linearisation(Answer):
 
     @property
     def space(self) -> StateSpace:
-        """The state space that is shown and written."""
+        """The state space for tables and files."""
         return self.modal if self.balanced is None else self.balanced.space
 
     @cached_property
     def damping_ratios(self) -> np.ndarray:
-        """−Re s/|s| of the poles above the real axis, or on it."""
+        """Damping ratios −Re s/|s| of the poles on or above the real axis."""
         upper = self.upper
         return -upper.real / np.abs(upper)
 
     @property
     def upper(self) -> np.ndarray:
-        """The poles of each pair above the real axis, and those on it [rad/s]."""
+        """The poles on or above the real axis [rad/s]."""
         poles = self.space.poles
         return np.asarray(poles[poles.imag >= 0.0])
 
     def document(self) -> dict[str, Any]:
-        """Return poles, inputs, outputs and static gains, and what a reduction promises."""
+        """Return poles, inputs, outputs, static gains, and the error bound of a reduction."""
         poles, matrices = self.space.poles, self.matrices
         form = {
             "label": self.label,
@@ -96,14 +96,14 @@ class Linearisation(Answer):
 
     @property
     def _reduction(self) -> dict[str, Any]:
-        """Describe the balanced truncation, where there is one."""
+        """The balanced truncation as JSON data, empty without one."""
         if self.balanced is None:
             return {}
         return {"hankel": self.balanced.hankel, "bound": self.balanced.bound, "scale": self.balanced.scale}
 
     def arrays(self) -> dict[str, Any]:
-        """Return what `linear.mat` and `linear.npz` hold; matrices of all unknowns are sparse."""
-        full = {name: getattr(self.matrices, of) for name, of in MATRICES.items()}
+        """Return the arrays of `linear.mat` and `linear.npz`; matrices of all unknowns are sparse."""
+        full = {name: getattr(self.matrices, attribute) for name, attribute in MATRICES.items()}
         modal = {f"ss_{name.upper()}": getattr(self.space, name) for name in "abcd"}
         names = {name: np.array(getattr(self.matrices, name)) for name in ("inputs", "outputs")}
         return {**full, **modal, "frequencies_hz": self.space.frequencies, **names, **self._reduction}
@@ -118,20 +118,21 @@ class Linearisation(Answer):
         return self.scene.name, self.scene.title, lead
 
     def tables(self) -> tuple[Table, ...]:
-        """Return the poles, and what inputs do at rest: on terminals along z alone."""
-        of = self.matrices
-        moved = (MILLIMETRES("z.4g", name, detail=not name.endswith(" uz")) for name in of.outputs)
-        inputs = zip(of.inputs, of.jacobian.T, strict=True)
+        """Return tables of the poles and of static displacements per input; a terminal shows z alone."""
+        matrices = self.matrices
+        outputs = (MILLIMETRES("z.4g", name, detail=not name.endswith(" uz")) for name in matrices.outputs)
+        inputs = zip(matrices.inputs, matrices.jacobian.T, strict=True)
         rows = ((name, unit_of(name), *column) for name, column in inputs)
         caption = "Static displacement per unit of input"
-        return self._poles(), Table.listed(caption, ("input", "unit", *moved), rows, "jacobian")
+        return self._poles(), Table.listed(caption, ("input", "unit", *outputs), rows, "jacobian")
 
     def _poles(self) -> Table:
-        """Return a row per pair of poles: the slowest first."""
+        """Return a table with a row per pair of poles, the slowest first."""
         pairs = zip(self.upper, self.damping_ratios, strict=True)
         rows = [(abs(p) / (2.0 * np.pi), ratio, p.real, p.imag) for p, ratio in pairs]
         undamped = not any(self.damping_ratios)
-        columns = [replace(one, detail=undamped and one.name in ("damping ratio", "real")) for one in POLES]
+        zero = ("damping ratio", "real") if undamped else ()
+        columns = [replace(column, detail=column.name in zero) for column in POLES]
         return Table.listed("Poles (undamped)" if undamped else "Poles", columns, rows, "poles")
 
     def files(self) -> dict[str, Write]:
@@ -154,25 +155,24 @@ class Linearisation(Answer):
         if self.balanced is None:
             return EXPLANATION
         return (
-            f"balanced: {self.balanced.order} of {len(self.modal.a)} states; the error of every "
-            f"response is below {100.0 * self.balanced.bound:.3g} % of its static value at all frequencies, "
-            "and 0 at frequency 0",
+            f"balanced: {self.balanced.order} of {len(self.modal.a)} states; guaranteed error of every "
+            f"response: at most {100.0 * self.balanced.bound:.3g} % of its static value at all frequencies, "
+            "0 at frequency 0",
             *EXPLANATION,
         )
 
     def complaints(self) -> list[str]:
         if self.balanced is None or self.balanced.bound <= LOOSE:
             return []
-        off, enough = f"{100.0 * self.balanced.bound:.3g} %", self.balanced.order_within(TIGHT)
+        bound, enough = f"{100.0 * self.balanced.bound:.3g} %", self.balanced.order_within(TIGHT)
         return [
-            f"balanced: {self.balanced.order} states may be off by {off} of the static response; {enough} "
-            f"keep the error below {100.0 * TIGHT:g} % (--reduce balanced:{TIGHT:g})"
+            f"balanced: the error of {self.balanced.order} states may reach {bound} of the static response; "
+            f"{enough} states keep it below {100.0 * TIGHT:g} % (--reduce balanced:{TIGHT:g})"
         ]
 
 
 def unit_of(name: str) -> str:
-    """Return the unit of an input by the last word of its name; of a load and gravity "factor", of what the
-    scene has."""
+    """Return the unit of an input by its name's last word; "factor" for the scene's loads and gravity."""
     return UNITS.get(name.replace(".", " ").split()[-1], "factor")
 
 
@@ -184,12 +184,12 @@ def linearise(
     reduce: str | None = None,
     about: About = "deformed",
 ) -> Linearisation:
-    """Return the lattice of a scene about its equilibrium under its loads, or about the flat sheet.
+    """Return a scene's lattice linearised about its equilibrium under its loads, or about the flat sheet.
 
-    modes: of the state space, all for None; those that there are where they are fewer. reduce: them further,
-    "balanced:8" to that many states, "balanced:0.01" to as few as keep the bound on the error within that
-    share of what an input does at rest. Raises BadInput for choices that do not exist, for what has no linear
-    form (`lumped.linearise`) and what cannot be balanced (`lumped.StateSpace`).
+    modes: largest number of modes in the state space, None for all; reduce: "balanced:8" for a reduction to
+    8 states, "balanced:0.01" for the fewest states with an error bound of 0.01 of the static response.
+    Raises BadInput for unknown choices, for a scene without linear form (`lumped.linearise`) and a state
+    space that cannot be balanced (`lumped.StateSpace`).
     """
     import lumped
 
@@ -200,16 +200,16 @@ def linearise(
     model = resolve(scene, lattice, "motion")
     springs = model.springs
     context().progress(Work("linearising the lattice", model.size))
-    found = lumped.linearise(scene, springs, about)
-    most = found.mass.shape[0]
-    require_states(2 * min(modes or most, most))
-    space = found.state_space(None if modes is None else min(modes, most))
+    matrices = lumped.linearise(scene, springs, about)
+    unknowns = matrices.mass.shape[0]
+    require_states(2 * min(modes or unknowns, unknowns))
+    space = matrices.state_space(None if modes is None else min(modes, unknowns))
     balanced = None if reduce is None else space.balanced(order, tolerance)
-    return Linearisation(scene, f"lumped {springs.title}", about, found, space, balanced)
+    return Linearisation(scene, f"lumped {springs.title}", about, matrices, space, balanced)
 
 
 def _balance(reduce: str | None) -> tuple[int | None, float | None]:
-    """Return the order or the tolerance that "balanced:8" or "balanced:0.01" asks for."""
+    """Return the order of "balanced:8" or the tolerance of "balanced:0.01", both None for None."""
     if reduce is None:
         return None, None
     name, _, number = reduce.partition(":")

@@ -1,7 +1,7 @@
 """The manifest of a folder as a page reads it: of the shape that verbs write it in, or refused.
 
-What a run was given and found, under "settings" and "scene", may be anything: it is looked at where it is
-shown.
+What a run was given and found, under "settings" and "scene", may be anything: it is checked by the code that
+shows it.
 """
 
 from __future__ import annotations

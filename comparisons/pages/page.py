@@ -1,8 +1,8 @@
-"""The page of a folder: its studies put into one HTML file that asks for nothing.
+"""The page of a folder: its studies in one HTML file that makes no request.
 
-A content security policy lets the page's own script and style alone do anything, by their digests; whatever
-a scene or a file says is text (Jinja escapes all of it), and data are read as JSON. Scene points go as
-float32, pictures as WebP.
+A content security policy lets the page's own script and style alone do anything, by their digests; all words
+of a scene or a file are text (Jinja escapes them), and data are read as JSON. Scene points go as float32,
+pictures as WebP.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def policy(script: str, style: str) -> str:
 
 
 def whole_words(text: str) -> Markup:
-    """Return the text so that options and names with hyphens are not broken over lines at these."""
+    """Return the text so that options and names with hyphens are not broken over lines at hyphens."""
     span = Markup('<span class="whole">{}</span>')
     words = _visible(text).split(" ")
     return Markup(" ").join(span.format(word) if "-" in word else word for word in words)
@@ -97,7 +97,7 @@ def _visible(value: Any) -> Any:
 
 
 def _study(study: Study, number: int) -> dict[str, Any]:
-    """Return what the template shows of a study."""
+    """Return a study's values for the template."""
     sheets, drawn, words = stage(study), pictures(study), study.words
     turning = sheets is not None and not any(sheet.get("frames") for sheet in sheets["sheets"])
     folded = [one for one in drawn if turning and not one[0].endswith(".svg")]
@@ -119,7 +119,7 @@ def _study(study: Study, number: int) -> dict[str, Any]:
 
 
 def _made(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return what a study was made with."""
+    """Return the machine, the versions and the times of a study."""
     machine = record.get("machine") or {}
     versions = record.get("versions") or {}
     parts = {
@@ -137,7 +137,7 @@ def _size(path: Path) -> str:
 
 
 def question(study: Study) -> list[tuple[str, str]]:
-    """Pairs of a part's name and what it says: of the scene, of each model's settings, of those of none;
+    """Pairs of a part's name and its sentence: of the scene, of each model's settings, of common settings;
     reasons of choices are among the notes."""
     scene = study.scene
     parts = study.attempt("scene", lambda: [*in_words(scene)]) if scene is not None else []

@@ -30,7 +30,7 @@ LINES = 8  # cells a side that lines on a finer surface mark
 def own_text(name: str) -> str:
     """Return a file of the page: `viewer.js` is `source/` bundled with three.js by `make viewer` and defines
     `Sheets.createViewer(element, options)`, whose options `source/index.js` describes and this module makes;
-    it asks for nothing and evaluates nothing."""
+    it makes no request and evaluates no text."""
     return resources.files("comparisons.pages").joinpath(name).read_text(encoding="utf-8")
 
 
@@ -108,7 +108,7 @@ def forces(points: np.ndarray, displacement: np.ndarray, scene: Scene) -> list[d
 
 
 def _normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> np.ndarray:
-    """Unit normals (n, 3) of the deformed mesh at plan points (n, 2): of planes through what lies near."""
+    """Unit normals (n, 3) of the deformed mesh at plan points (n, 2): of planes through points nearby."""
     found = np.zeros((len(plan), 3))
     for i, at in enumerate(plan):
         near = np.argsort(np.linalg.norm(points[:, :2] - at, axis=1))[:NEAR]
@@ -126,8 +126,7 @@ def outline(scene: Scene) -> dict[str, str]:
 
 
 def eye(scene: Scene) -> list[float]:
-    """Return the direction of an eye that looks at the sheet from where it is free, above and a little
-    aside."""
+    """Return the direction to an eye on the sheet's free side, above and a little aside."""
     heading = eye_heading(scene)
     return [float(np.cos(heading)), float(np.sin(heading)), 0.55]
 
@@ -161,8 +160,8 @@ def _links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _shape_lines(mesh: FieldMesh) -> np.ndarray:
-    """Sides of quadrilaterals, (m, 2): all of a coarse mesh, of a finer regular one those that cut it into
-    LINES cells a side, so that its shape is seen."""
+    """Sides of quadrilaterals, (m, 2): all of a coarse mesh, of a finer regular one as many as cut it into
+    LINES cells a side, so that its shape is visible."""
     quads = _cells(mesh, QUADS, 4)
     sides = np.unique(np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0)
     kept = np.zeros(len(sides), dtype=bool)

@@ -1,7 +1,7 @@
-"""Sheets of a study in three dimensions: what its VTU files hold, as the viewer takes it.
+"""Sheets of a study in three dimensions: its VTU files as options of the viewer.
 
-A file has point data `displacement`; a comparison's plan grid has one a model, and what it differs by; that
-of modes has one a mode. A PVD file lists the moments of a motion.
+A file has point data `displacement`; a comparison's plan grid has one a model, and the difference; a file of
+modes has one a mode. A PVD file lists the moments of a motion.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The studies in a folder: command, answer, files and tables of every run.
 
-A manifest tells of its folder's runs. A file that cannot be read costs a sentence and nothing else.
+A manifest lists its folder's runs. A file that cannot be read costs a sentence and nothing else.
 
 Tables have values with all their digits to sort by, shown as everywhere else. The manifest has the columns
 with their units and formats, the CSV file the values in SI units. Other CSV files, as of samples over time,
@@ -33,9 +33,9 @@ OURS = ("report.html", MANIFEST, store.FILE)
 class Study:
     """A run's answer.
 
-    folder: where its files are; place: that as the reader knows it; verb: of the run, "" of sheets without
-    one; run: its entry in the manifest; record: the manifest. troubles: a sentence for everything that cannot
-    be read.
+    folder: where its files are; place: its path below the root; verb: of the run, "" of sheets without one;
+    run: its entry in the manifest; record: the manifest. troubles: a sentence for everything that cannot be
+    read.
     """
 
     folder: Path
@@ -98,8 +98,7 @@ class Study:
 
     @property
     def notes(self) -> list[str]:
-        """The notes of the run on one line each but its complaints; one that ends in a colon with what
-        follows it."""
+        """The notes of the run on one line each but its complaints; a colon joins the next."""
         found: list[str] = []
         for note in self.words.get("notes") or texts(self.document.get("notes")):
             line = " ".join(note.split())
@@ -111,12 +110,12 @@ class Study:
 
     @property
     def complaints(self) -> list[str]:
-        """What went wrong, and what is doubtful about the scene."""
+        """Failures of the run, and doubts about the scene."""
         complaints = [*self.words.get("complaints", ()), *texts(self.document.get("warnings"))]
         return list(dict.fromkeys(complaints))
 
     def read(self, name: str, reader: Callable[[Path], Any]) -> Any:
-        """Return what a reader makes of a file; None, with a sentence, where it is missing, outside, too
+        """Return a reader's value of a file, or None and add a sentence for one that is missing, outside, too
         large or damaged."""
         path = self.folder / name
         if not path.resolve().is_relative_to(self.folder.resolve()):
@@ -135,8 +134,8 @@ class Study:
         return None
 
     def attempt(self, what: str, made: Callable[[], Any]) -> Any:
-        """Return what is made of words that may be damaged; None, with a sentence, where nothing can
-        be."""
+        """Return the value of a call on words that may be damaged, or None and add a sentence for damaged
+        ones."""
         try:
             return made()
         except Exception as error:  # the document may hold anything
@@ -168,7 +167,7 @@ class FolderContents:
 
 
 def read(root: Path) -> FolderContents:
-    """Return every study in a folder and those below it. Raises BadInput where there is no such folder."""
+    """Return every study in a folder and below it. Raises BadInput for a missing folder."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
     found = FolderContents()
@@ -177,8 +176,8 @@ def read(root: Path) -> FolderContents:
 
 
 def _collect(folder: Path, place: str, found: FolderContents) -> None:
-    """Add what is in a folder and in all below it but those that a run keeps for itself, hidden ones and
-    links; place: where it is, as the reader knows it."""
+    """Add the studies of a folder and of all below it but a run's own folders, hidden ones and links; place:
+    its path below the root."""
     try:
         inside = [path for path in sorted(folder.iterdir()) if not path.name.startswith(".")]
     except OSError as error:
@@ -205,7 +204,7 @@ MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folde
 
 @dataclass(frozen=True, repr=False)
 class PageTable(Table):
-    """A table for a page. note: what is left out; aside: shown when requested only."""
+    """A table for a page. note: a sentence about omitted rows; aside: shown when requested only."""
 
     note: str = ""
     aside: bool = False
@@ -218,7 +217,7 @@ class PageTable(Table):
 
 
 def tables(study: Study) -> list[PageTable]:
-    """Return every table that a study's manifest tells of."""
+    """Return every table in a study's manifest."""
     found = []
     for words in study.words.get("tables", ()):
         name, rows = f"{words.get('name')}.csv", words.get("rows")

@@ -1,6 +1,6 @@
 """Named arrays as files of NumPy and of MATLAB, and meshes with their fields as VTU.
 
-Every VTU file has point data `displacement` (n, 3) [m]; points are those of the undeformed sheet.
+Every VTU file has point data `displacement` (n, 3) [m] at points of the undeformed sheet.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def write_mat(path: Path, values: Mapping[str, Any]) -> None:
 
 def write_mesh(path: Path, mesh: FieldMesh) -> None:
     """Write a mesh with its fields as VTU."""
-    import meshio  # half as slow to import as all else that a comparison needs
+    import meshio  # its import takes half as long as all others of a comparison together
 
     file = meshio.Mesh(mesh.points, mesh.cells, mesh.point_data, mesh.cell_data)
     with whole(path) as partial:

@@ -1,4 +1,4 @@
-"""Names of points in a picture, placed so that none hides another or leaves the panel."""
+"""Names of points in a figure, placed without overlaps and inside the panel."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from sheetbench.answers.style import DARK, MOST, plain
 
 SIZE, LONGEST = 6.5, 14  # points; characters of a name
 STEPS = (3.5, 9.0, 15.0)  # points from a point to its name
-CORNERS = ((1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1), (1, 0), (-1, 0))  # where names stand, in turn
+CORNERS = ((1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1), (1, 0), (-1, 0))  # directions, by preference
 ACROSS, UP = ("center", "left", "right"), ("center", "bottom", "top")
 
 
@@ -32,7 +32,7 @@ def place_labels(axis: Axes, pixels: np.ndarray, names: list[str]) -> None:
 
 
 def marks(axis: Axes, points: np.ndarray) -> list[Bbox]:
-    """Return what the marks of points (n, 2) cover, in pixels."""
+    """Return the boxes of the marks of points (n, 2), in pixels."""
     size, at = axis.figure.dpi / 36.0, axis.transData.transform(points.reshape(-1, 2))
     return [Bbox.from_bounds(x - 0.5 * size, y - 0.5 * size, size, size) for x, y in at]
 
@@ -43,8 +43,8 @@ def spread(
     corners: Sequence[tuple[int, int]] = CORNERS,
     frame: BboxBase | None = None,
 ) -> None:
-    """Move labels to the first place about their points where they hide least of what is taken, and least of
-    them lies outside a frame; corners: in which direction, the preferred one first."""
+    """Move each label to the place near its point with the least overlap with taken boxes and earlier labels
+    and the least area outside the frame; corners: directions from the point, by preference."""
     hidden = list(taken)
     for label in labels:
         places = [(step, x, y) for step in STEPS for x, y in corners]
@@ -53,14 +53,14 @@ def spread(
 
 
 def _moved(label: Annotation, step: float, x: int, y: int) -> Bbox:
-    """Move a label off its point; what it covers, in pixels."""
+    """Move a label off its point; return its box in pixels."""
     label.xyann = (step * x, step * y)
     label.set(ha=ACROSS[x], va=UP[y])
     return label.get_window_extent()
 
 
 def _cost(box: BboxBase, taken: Sequence[BboxBase], frame: BboxBase | None) -> float:
-    """Return the area that a label shares with others or has outside the frame."""
+    """Return the area of a label that overlaps others or lies outside the frame."""
     outside = 0.0 if frame is None else box.width * box.height - _common(box, frame)
     return float(round(outside + sum(_common(box, other) for other in taken), 6))
 

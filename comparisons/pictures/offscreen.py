@@ -1,7 +1,7 @@
-"""Whether VTK can draw off screen here, found out without risking this process.
+"""A test of VTK's off-screen drawing on this system in a child process.
 
-VTK draws through the system's EGL or OSMesa library. Without either it does not raise, it ends the process
-with a segmentation fault: so a small picture is tried in a child process first, once per process.
+VTK draws through the system's EGL or OSMesa library. Without either it ends the process with a segmentation
+fault, so a small image is drawn in a child process first, once per process.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from functools import cache
 
 PACKAGES = "libegl1 libgl1-mesa-dri (or libosmesa6)"
 _WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"
-_WINDOWS = ("vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow", "")  # "": whatever VTK picks by itself
+_WINDOWS = ("vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow", "")  # "": VTK's default
 _TRIAL = """
 import vtkmodules.vtkRenderingOpenGL2
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
@@ -41,7 +41,7 @@ raise SystemExit(0 if low < high else 1)
 
 
 def why_not() -> str | None:
-    """Return why there is no picture and what to install, None where off-screen drawing works."""
+    """Return the reason against off-screen drawing and the packages to install, None if it works."""
     if _working_window() is None:
         return f"off-screen drawing does not work on this system; on Debian install {PACKAGES}"
     return None
@@ -49,19 +49,19 @@ def why_not() -> str | None:
 
 @contextmanager
 def drawing() -> Iterator[None]:
-    """Have VTK make the kind of window that works here; it reads which in the environment."""
-    before = os.environ.get(_WINDOW)
+    """Set the environment variable for a block that selects a kind of VTK window that works here."""
+    previous = os.environ.get(_WINDOW)
     os.environ[_WINDOW] = _working_window() or ""
     try:
         yield
     finally:
         del os.environ[_WINDOW]
-        os.environ.update({} if before is None else {_WINDOW: before})
+        os.environ.update({} if previous is None else {_WINDOW: previous})
 
 
 @cache
 def _working_window() -> str | None:
-    """Return the first kind of window that draws in a trial, None if none does."""
+    """Return the first kind of window that passes a trial drawing, None if none passes."""
     requested = os.environ.get(_WINDOW)
     kinds = (requested,) if requested else _WINDOWS
     return next((kind for kind in kinds if _draws({**os.environ, _WINDOW: kind})), None)

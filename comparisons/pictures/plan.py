@@ -1,7 +1,7 @@
-"""The plan of a scene in pictures: a mesh over the sheet, lines across it, its rims, and where it is held.
+"""The plan of a scene for figures: a mesh and lines on the sheet, its rims, supported lines, arrows of loads.
 
-Arrows of loads: of all point loads the largest has the longest arrow. Arrows of an edge load stand along its
-edge, of a pressure all over the sheet, along its normal.
+The largest point load has the longest arrow. Arrows of an edge load are spread along its edge, arrows of a
+pressure over the sheet and along its normal.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from sheetbench.scenes.objects.sheet import EDGES
 from sheetbench.scenes.objects.supports import place
 
 PLAN_CELLS = 64
-ASIDE = np.radians(24.0)  # from the free side's direction to the eye
-LEAST_SHARE = 0.05  # of a cell's area on the sheet, from which it is drawn
+EYE_OFFSET = np.radians(24.0)  # angle from the free side's direction to the eye
+LEAST_SHARE = 0.05  # of a cell's area on the sheet: cells below are not drawn
 
 
 def plan_mesh(scene: Scene, cells: int = PLAN_CELLS) -> FieldMesh:
-    """Quadrilaterals over the flat sheet, `cells` along the shorter side; of a rectangle x runs fastest,
-    those at other rims follow them. No fields yet."""
+    """Return quadrilaterals on the flat sheet, `cells` along the shorter side, without fields. x runs
+    fastest; points of cells at rims other than the rectangle's are moved to the rim."""
     sheet = scene.sheet
     nx, ny = near_square(sheet, cells)
     y, x = np.meshgrid(
@@ -46,7 +46,7 @@ def plan_mesh(scene: Scene, cells: int = PLAN_CELLS) -> FieldMesh:
 
 
 def inside(scene: Scene, points: np.ndarray) -> np.ndarray:
-    """Which of the plan points (n, 2) [m] of the rectangle lie on the sheet, (n,)."""
+    """Return whether plan points (n, 2) [m] of the rectangle lie on the sheet, (n,)."""
     if not scene.pierced:
         return np.ones(len(points), dtype=bool)
     import shapely
@@ -55,19 +55,19 @@ def inside(scene: Scene, points: np.ndarray) -> np.ndarray:
 
 
 def on_sheet(scene: Scene, points: np.ndarray) -> np.ndarray:
-    """The points of the sheet nearest to plan points (n, 2) [m]."""
+    """Return the points of the sheet nearest to plan points (n, 2) [m]."""
     if not scene.pierced:
         return np.clip(points, 0.0, scene.sheet.lengths)
     import shapely
 
-    found = points.copy()
+    out = points.copy()
     for n in np.flatnonzero(~shapely.contains_xy(scene.region, *points.T)):
-        found[n] = nearest(scene.region, (points[n, 0], points[n, 1]))
-    return found
+        out[n] = nearest(scene.region, (points[n, 0], points[n, 1]))
+    return out
 
 
 def plan_lines(scene: Scene, cells: int) -> list[np.ndarray]:
-    """Plan lines (n, 2) [m] that cut the sheet into near-square cells, `cells` along the shorter side."""
+    """Return plan lines (n, 2) [m] that divide the sheet into `cells` along the shorter side."""
     if cells == 0:
         return []
     (nx, ny), (lx, ly) = near_square(scene.sheet, cells), scene.sheet.lengths
@@ -76,14 +76,14 @@ def plan_lines(scene: Scene, cells: int) -> list[np.ndarray]:
     if scene.pierced:
         from shapely import LineString
 
-        cut = [scene.region.intersection(LineString(pair)) for pair in ends]
-        parts = [part for each in cut for part in getattr(each, "geoms", [each])]
+        pieces = [scene.region.intersection(LineString(pair)) for pair in ends]
+        parts = [part for piece in pieces for part in getattr(piece, "geoms", [piece])]
         ends = [(part.coords[0], part.coords[-1]) for part in parts if part.length > 0.0]
     return [_divided(pair, 2 * PLAN_CELLS + 1) for pair in ends]
 
 
 def rims(scene: Scene) -> list[np.ndarray]:
-    """The rims of the flat sheet, of each its corners in turn, the first again at the end, (n, 2) [m]."""
+    """Return the rims of the flat sheet, each as its corners in order with the first repeated, (n, 2) [m]."""
     if scene.pierced:
         return [np.array(ring.coords) for ring in (scene.region.exterior, *scene.region.interiors)]
     lx, ly = scene.sheet.lengths
@@ -91,7 +91,7 @@ def rims(scene: Scene) -> list[np.ndarray]:
 
 
 def held_lines(scene: Scene, support: Support) -> list[np.ndarray]:
-    """Plan lines (n, 2) [m] along what a support holds: its edge, or the rim of its part of the sheet."""
+    """Return plan lines (n, 2) [m] of a support: its edge, or the rim of its part of the sheet."""
     shape = place(support)
     if shape is not None:
         part = scene.region.intersection(shape.area)
@@ -101,16 +101,16 @@ def held_lines(scene: Scene, support: Support) -> list[np.ndarray]:
 
 
 def eye_heading(scene: Scene) -> float:
-    """Direction [rad] on the plan towards the eye: away from the edges that hold the sheet, and aside."""
+    """Return the direction on the plan towards the eye [rad]: away from supported edges, turned a little."""
     held = [support.edge for support in scene.supports if place(support) is None]
     free = -sum((np.array(EDGES[edge].outward[:2]) for edge in held), np.zeros(2))
-    return float(np.arctan2(free[1], free[0]) if np.any(free) else np.radians(-40.0)) - ASIDE
+    return float(np.arctan2(free[1], free[0]) if np.any(free) else np.radians(-40.0)) - EYE_OFFSET
 
 
 def edge_ends(
     scene: Scene, edge: str, where: Shape | None = None
 ) -> list[tuple[Sequence[float], Sequence[float]]]:
-    """Both ends [m] of every part of an edge that the sheet reaches; where: in a shape."""
+    """Return both ends [m] of every part of an edge on the sheet; where: the part inside a shape."""
     if not scene.pierced and where is None:
         return [scene.sheet.edge_ends(edge)]
     across, turn = scene.sheet.edge_at(edge), -1 if EDGES[edge].along_axis else 1  # x, y of along, across
@@ -123,15 +123,15 @@ def _divided(ends: tuple[Sequence[float], Sequence[float]], count: int) -> np.nd
     return np.asarray(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
 
 
-POINT, EDGE, PRESSURE = 0.16, 0.1, 0.08  # lengths, of the sheet's longer side; of points the largest
-SHORTEST = 0.4  # of any other point's, of the largest
+POINT, EDGE, PRESSURE = 0.16, 0.1, 0.08  # lengths of arrows, of the sheet's longer side; POINT: the largest
+SHORTEST = 0.4  # length of the shortest point arrow, of the largest
 ALONG = 5  # arrows along an edge
-ACROSS = np.linspace(0.2, 0.8, 4)  # shares of both sides where a pressure's arrows stand
+ACROSS = np.linspace(0.2, 0.8, 4)  # positions of a pressure's arrows, as fractions of both sides
 
 
 def load_arrows(scene: Scene, normals: Callable[[np.ndarray], np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Return plan points (n, 2) [m] where arrows start, and the arrows (n, 3) in units of the sheet's longer
-    side; normals: unit normals (n, 3) of the deformed sheet at plan points."""
+    """Return the start points of arrows on the plan (n, 2) [m] and the arrows (n, 3) in units of the sheet's
+    longer side; normals: unit normals (n, 3) of the deformed sheet at plan points."""
     points = [load for load in scene.loads if isinstance(load, PointLoad)]
     plan = [np.array([load.at for load in points]).reshape(-1, 2)]
     arrows = [point_arrows(np.array([load.force for load in points]).reshape(-1, 3))]
@@ -140,22 +140,22 @@ def load_arrows(scene: Scene, normals: Callable[[np.ndarray], np.ndarray]) -> tu
             plan.append(edge_plan(scene, load.edge, np.linspace(0.0, 1.0, ALONG), load.where))
             arrows.append(np.tile(EDGE * _direction(load.force_per_length), (len(plan[-1]), 1)))
         elif isinstance(load, AreaLoad) and any(load.force_per_area):
-            plan.append(_all_over(scene, load.where))
+            plan.append(_spread_points(scene, load.where))
             arrows.append(np.tile(PRESSURE * _direction(load.force_per_area), (len(plan[-1]), 1)))
         elif isinstance(load, Pressure) and load.value:
-            plan.append(_all_over(scene, load.where))
+            plan.append(_spread_points(scene, load.where))
             arrows.append(PRESSURE * np.sign(load.value) * normals(plan[-1]))
     return np.vstack(plan), np.vstack(arrows)
 
 
 def edge_plan(scene: Scene, edge: str, shares: np.ndarray, where: Shape | None = None) -> np.ndarray:
-    """Plan points (n, 2) [m] at shares of every part of an edge that the sheet reaches; where: in a shape."""
+    """Return plan points (n, 2) [m] at fractions of every part of an edge; where: the part inside a shape."""
     ends = np.array(edge_ends(scene, edge, where))
     return np.vstack([start + shares[:, None] * (end - start) for start, end in ends])
 
 
-def _all_over(scene: Scene, where: Shape | None) -> np.ndarray:
-    """Plan points (n, 2) [m] evenly over the sheet, or over its part in a shape."""
+def _spread_points(scene: Scene, where: Shape | None) -> np.ndarray:
+    """Return evenly spread plan points (n, 2) [m] of the sheet, or of its part inside a shape."""
     box = np.array([(x, y) for x in ACROSS for y in ACROSS])
     if where is None and not scene.pierced:
         return box * scene.sheet.lengths
@@ -173,8 +173,8 @@ def _direction(force: tuple[float, float, float]) -> np.ndarray:
 
 
 def point_arrows(forces: np.ndarray) -> np.ndarray:
-    """Arrows (n, 3) of forces (n, 3), in units of the sheet's longer side: in proportion to the forces, but
-    long enough to be seen."""
+    """Return arrows (n, 3) of forces (n, 3) in units of the sheet's longer side: proportional to the forces,
+    but at least SHORTEST of the largest."""
     sizes = np.linalg.norm(forces, axis=1, keepdims=True)
     largest = float(sizes.max(initial=0.0))
     if not largest:

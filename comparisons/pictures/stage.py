@@ -1,10 +1,9 @@
-"""Drawing deformed sheets with pyvista, off screen: what stands on the stage of every panel.
+"""Drawing of deformed sheets with pyvista, off screen: the stage of every panel.
 
-Displacements are multiplied by `scale` for drawing. Needs off-screen drawing
-(`comparisons.pictures.offscreen`).
+Displacements are multiplied by `scale`. Needs off-screen drawing (`comparisons.pictures.offscreen`).
 
-What acts on a sheet is on the stage too: chains and moved edges in red, loads as blue arrows, payloads at
-points as dark balls, obstacles pale. An arrow starts where its force acts and points along it
+A stage also shows actuators and loads: chains and moved edges in red, loads as blue arrows, payloads at
+points as dark balls, obstacles pale. An arrow starts at the point of action of its force and points along it
 (`comparisons.pictures.plan`). A turned arrow is an edge's moment.
 """
 
@@ -34,15 +33,15 @@ from sheetbench.answers.solution import FieldMesh, Solution
 from sheetbench.answers.style import DARK, GREY
 from sheetbench.scenes import EDGES, Chain, Cylinder, EdgeLoad, Plane, Scene, holds_director
 
-REFERENCE_PIXELS = 1800  # across an image, in which the widths of lines below are pixels
-MARGIN = 0.04  # as a share of the image's width
+REFERENCE_PIXELS = 1800  # width of the image for which line widths below are given in pixels
+MARGIN = 0.04  # fraction of the image's width
 ELEVATION = 27.0  # degrees above the plane
 Colours = str | Colormap
 LINK, OUTLINE, ROD, OBSTACLE = "#5f6770", "#a9afb6", "#c8553d", "#d8d2c4"
 
 
 class Stage:
-    """A white stage with the undeformed outline and the supports of a scene, seen from the free side."""
+    """A white stage with the undeformed outline and the supports of a scene, viewed from the free side."""
 
     def __init__(self, scene: Scene, held: Solution, scale: float, pixels: int) -> None:
         self.scene = scene
@@ -59,59 +58,55 @@ class Stage:
     def lattice(
         self, mesh: FieldMesh, values: np.ndarray, limits: tuple[float, float], colours: Colours
     ) -> None:
-        """Links, diagonals paler and thinner than the rest; masses coloured by a value a mass."""
+        """Draw links, diagonals paler and thinner, and masses coloured by a value per mass."""
         points = mesh.points + self.scale * mesh.point_data["displacement"]
         pairs = np.vstack([cell for kind, cell in mesh.cells if kind == "line"])
         along = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0]) > 1e-9 * self.size
         straight = along.sum(axis=1) == 1
-        for some, colour, width in ((pairs[~straight], OUTLINE, 3.0), (pairs[straight], LINK, 6.0)):
-            links = pyvista.PolyData(points, lines=np.insert(some, 0, 2, axis=1).ravel())
-            self.plotter.add_mesh(links, color=colour, line_width=self._line * width, lighting=False)
-        linked = np.unique(pairs)  # those of absent cells are not
+        for links, colour, width in ((pairs[~straight], OUTLINE, 3.0), (pairs[straight], LINK, 6.0)):
+            lines = pyvista.PolyData(points, lines=np.insert(links, 0, 2, axis=1).ravel())
+            self.plotter.add_mesh(lines, color=colour, line_width=self._line * width, lighting=False)
+        linked = np.unique(pairs)  # masses of absent cells have no links
         masses = pyvista.PolyData(points[linked])
         masses["value"] = values[linked]
         radius = min(0.15 / np.sqrt(len(points)), 0.011)
         self._balls(masses, radius, specular=0.3, **_coloured(limits, colours))
 
     def payloads(self, points: np.ndarray) -> None:
-        """Balls at the places (n, 3) [m] of payloads."""
+        """Draw balls at the positions (n, 3) [m] of payloads."""
         self._balls(pyvista.PolyData(points), 0.018, color=DARK, specular=0.3)
 
     def _balls(self, at: pyvista.PolyData, radius: float, **shown: Any) -> None:
-        """Balls of a radius, as a share of the longer side."""
+        """Draw balls; radius: fraction of the longer side."""
         ball = pyvista.Sphere(radius=radius * self.size)
         balls = at.glyph(geom=ball, scale=False, orient=False)
         self.plotter.add_mesh(balls, smooth_shading=True, **shown)
 
     def obstacles(self, time: float | None = None) -> np.ndarray:
-        """The parts of obstacles that are near the sheet, at a time [s] or in their last places; points
-        (n, 3) [m] of their surfaces."""
-        middle, shown = (
-            np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0]),
-            [np.empty((0, 3))],
-        )
-        for one in self.scene.obstacles:
-            at, along, radius = one.place(1.0, time), one.direction, one.radius
-            way, side = ((middle - at) @ along) * along, 1.3 * self.size
-            if isinstance(one, Plane):
-                body = pyvista.Plane(center=middle - way, direction=along, i_size=side, j_size=side)
-            elif isinstance(one, Cylinder):
+        """Draw obstacles near the sheet, at a time [s] or at last; return points on them (n, 3) [m]."""
+        middle = np.array([*(0.5 * length for length in self.scene.sheet.lengths), 0.0])
+        points, side = [np.empty((0, 3))], 1.3 * self.size
+        for obstacle in self.scene.obstacles:
+            at, along, radius = obstacle.place(1.0, time), obstacle.direction, obstacle.radius
+            offset = ((middle - at) @ along) * along
+            culling: Any = {"culling": "back"}  # hides a body's far side
+            if isinstance(obstacle, Plane):
+                body = pyvista.Plane(center=middle - offset, direction=along, i_size=side, j_size=side)
+                culling = {}
+            elif isinstance(obstacle, Cylinder):
                 size: dict[str, Any] = {"radius": radius, "height": 1.2 * self.size}
-                body = pyvista.Cylinder(center=at + way, direction=along, resolution=80, **size)
+                body = pyvista.Cylinder(center=at + offset, direction=along, resolution=80, **size)
             else:
                 body = pyvista.Sphere(radius=radius, center=at, theta_resolution=60, phi_resolution=60)
-            round_: Any = (
-                {} if isinstance(one, Plane) else {"culling": "back"}
-            )  # no far side through the near one
-            sharp = isinstance(one, Cylinder)
+            sharp = isinstance(obstacle, Cylinder)
             self.plotter.add_mesh(
-                body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=sharp, **round_
+                body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=sharp, **culling
             )
-            shown.append(body.points)
-        return np.concatenate(shown)
+            points.append(body.points)
+        return np.concatenate(points)
 
     def chain(self, points: np.ndarray) -> None:
-        """The axis of a chain through the ends of its segments (p, 3), with a ball at each."""
+        """Draw a chain's axis through the ends of its segments (p, 3), with a ball at each."""
         line = pyvista.lines_from_points(points)
         self.plotter.add_mesh(line.tube(radius=0.006 * self.size), color=ROD, specular=0.2)
         self._balls(pyvista.PolyData(points), 0.01, color=ROD, specular=0.2)
@@ -124,7 +119,7 @@ class Stage:
         colours: Colours,
         lines: int,
     ) -> None:
-        """The mid-surface, smooth, coloured by a value a plan point, with `lines` cells marked a side."""
+        """Draw the mid-surface coloured by a value per plan point; lines: marked cells per side."""
         plan = plan_mesh(self.scene)
         quads = plan.cells[0][1]
         faces = np.insert(quads, 0, 4, axis=1).ravel()
@@ -136,16 +131,13 @@ class Stage:
             self._curve(self.deformed(solution, line), DARK, width=2.0, opacity=0.45)
 
     def deformed(self, solution: Solution, plan: np.ndarray) -> np.ndarray:
-        """Places (n, 3) of plan points (n, 2) in the drawn sheet."""
+        """Return the positions (n, 3) of plan points (n, 2) in the drawn sheet."""
         flat = np.column_stack([plan, np.zeros(len(plan))])
         return flat + self.scale * solution.displacement(plan)
 
     def take(self, seen: np.ndarray, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the image, (height, width, 3), and where the points `marked` (n, 3) are in it, (n, 2)
-        pixels.
-
-        The camera shows the points `seen` (m, 3) and no more; it is the same for every stage of the scene.
-        """
+        """Return the image (height, width, 3) and the pixels (n, 2) of the points `marked` (n, 3) in it. The
+        camera's view just includes the points `seen` (m, 3) and depends on the scene alone."""
         toward, right, up = self._axes()
         across, along = seen @ right, seen @ up
         centre = right * _middle(across) + up * _middle(along) + toward * _middle(seen @ toward)
@@ -168,7 +160,7 @@ class Stage:
         return image, pixels
 
     def _axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Unit vectors towards the eye, to its right and up: from the free side, above and a little aside."""
+        """Return unit vectors towards the eye, to its right and up; the eye is on the free side, above."""
         azimuth, raised = eye_heading(self.scene), np.radians(ELEVATION)
         ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
         upright = np.array([0.0, 0.0, 1.0])
@@ -194,12 +186,13 @@ class Stage:
 
     def _supports(self, held: Solution) -> None:
         for support in self.scene.supports:
-            firm = holds_director(support)
+            clamped = holds_director(support)
             for plan in held_lines(self.scene, support):
                 tube = pyvista.lines_from_points(self.deformed(held, plan)).tube(
-                    radius=(0.009 if firm else 0.005) * self.size
+                    radius=(0.009 if clamped else 0.005) * self.size
                 )
-                self.plotter.add_mesh(tube, color=DARK if firm else GREY, smooth_shading=True, specular=0.2)
+                colour = DARK if clamped else GREY
+                self.plotter.add_mesh(tube, color=colour, smooth_shading=True, specular=0.2)
 
     def _curve(self, points: np.ndarray, colour: str, width: float, opacity: float = 1.0) -> None:
         curve = pyvista.lines_from_points(points)
@@ -218,19 +211,19 @@ def _middle(values: np.ndarray) -> float:
 
 LOAD = "#1b6ca8"
 MOMENT = 0.035  # radius of a turned arrow, of the longer side
-ASIDE = 0.012  # of the longer side: how far a chain on a face is drawn from the mid-surface
+CHAIN_OFFSET = 0.012  # of the longer side: distance of a chain on a face from the mid-surface
 
 
 def draw(stage: Stage, solution: Solution) -> np.ndarray:
-    """Put actuators, loads and payloads on the stage; places (n, 3) [m] that must be seen."""
+    """Draw actuators, loads, payloads and obstacles; return points (n, 3) [m] that the view must include."""
     seen = [stage.obstacles()]
     scene = stage.scene
     for actuator in scene.actuators:
         if isinstance(actuator, Chain):
             plan = edge_plan(scene, actuator.edge, np.linspace(0.0, 1.0, actuator.segments + 1))
             side = np.sign(actuator.axis_height(scene.sheet.thickness))
-            aside = side * ASIDE * stage.size * _normals(stage, solution, plan)
-            stage.chain(stage.deformed(solution, plan) + aside)
+            offset = side * CHAIN_OFFSET * stage.size * _normals(stage, solution, plan)
+            stage.chain(stage.deformed(solution, plan) + offset)
         else:
             plan = edge_plan(scene, actuator.edge, np.array([0.0, 1.0]))
             stage.chain(stage.deformed(solution, plan))
@@ -248,7 +241,7 @@ def draw(stage: Stage, solution: Solution) -> np.ndarray:
 
 
 def _arrows(stage: Stage, starts: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Draw arrows of vectors (n, 3), in units of the longer side; return where they end."""
+    """Draw arrows of vectors (n, 3), in units of the longer side; return their ends (n, 3)."""
     ends: np.ndarray = starts + stage.size * vectors
     for start, end in zip(starts, ends, strict=True):
         length = float(np.linalg.norm(end - start))
@@ -263,7 +256,7 @@ def _arrows(stage: Stage, starts: np.ndarray, vectors: np.ndarray) -> np.ndarray
 
 
 def _turns(stage: Stage, places: np.ndarray, edge: str, moment: float) -> None:
-    """Most of a circle about the edge, from outside the sheet towards +z if the moment is positive."""
+    """Draw turned arrows about an edge, from outside the sheet towards +z for a positive moment."""
     outward, up = np.array(EDGES[edge].outward), np.array([0.0, 0.0, np.sign(moment)])
     angle = np.linspace(-0.5, 4.0, 40)[:, None]
     radius = MOMENT * stage.size
@@ -278,13 +271,13 @@ def _turns(stage: Stage, places: np.ndarray, edge: str, moment: float) -> None:
 
 
 def _normals(stage: Stage, solution: Solution, plan: np.ndarray) -> np.ndarray:
-    """Unit normals (n, 3) of the drawn mid-surface at plan points (n, 2), by differences."""
+    """Return unit normals (n, 3) of the drawn mid-surface at plan points (n, 2), by finite differences."""
     step = 1e-3 * stage.size
     tangents = []
     for axis in range(2):
-        aside = np.zeros(2)
-        aside[axis] = step
-        ends = [on_sheet(stage.scene, plan + sign * aside) for sign in (-1.0, 1.0)]
+        shift = np.zeros(2)
+        shift[axis] = step
+        ends = [on_sheet(stage.scene, plan + sign * shift) for sign in (-1.0, 1.0)]
         tangents.append(stage.deformed(solution, ends[1]) - stage.deformed(solution, ends[0]))
     normal = np.cross(*tangents)
     return np.asarray(normal / np.linalg.norm(normal, axis=1, keepdims=True))

@@ -1,1 +1,1 @@
-"""The study of Habibi et al. again: what was published, and what the same inputs give."""
+"""Reproduction of the study of Habibi et al.: published values, and our results for the published inputs."""

@@ -1,9 +1,9 @@
-"""The printed error table computed again from the displacement tables it stands beside.
+"""The published error table, recomputed from the published displacement tables.
 
     error = | |u_model| − |u_experiment| | / n,    n = |u_experiment|, |u_model|, or the larger of the two
 
-Magnitudes, as one printed sign is a misprint; 0 where neither moves. A printed cell belongs to a
-normalisation if it has all its digits: rounded, or cut off after the last.
+Magnitudes are compared, because one printed sign is a misprint; the error is 0 if both are 0. A printed value
+matches a normalisation if all its digits agree, rounded or cut off.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ TEXT = (
 )
 SHOWN = ("test", "component", "probe", "printed", "of_experiment", "of_model", "of", "digits")
 PRINTED = 1e-3  # the last digit of a printed error, 0.1 %
-_SLACK = 1e-6  # of that digit, for what decimals leave
+_SLACK = 1e-6  # of that digit, for rounding of decimals
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A printed error and what it would be of the experiment and of the model, as fractions."""
+    """A printed error and the errors relative to the experiment and to the model, as fractions."""
 
     test: int
     component: Annotated[str, Column("u")]
@@ -41,34 +41,34 @@ class Cell:
 
     @property
     def of_larger(self) -> float:
-        """What it would be of the larger of the two."""
+        """Error relative to the larger of both magnitudes."""
         return min(self.of_experiment, self.of_model)
 
     @property
     def of(self) -> Annotated[str, Column("relative to")]:
-        """Whose magnitude it is relative to: "both" where that makes no difference to its digits."""
-        known = {"experiment": self.of_experiment, "model": self.of_model}
-        found = [name for name, error in known.items() if _digits(error, self.printed)]
-        return "both" if len(found) > 1 else "".join(found) or "neither"
+        """Source of the normalisation, "both" if either gives the printed digits, else "neither"."""
+        errors = {"experiment": self.of_experiment, "model": self.of_model}
+        matching = [name for name, error in errors.items() if _digits(error, self.printed)]
+        return "both" if len(matching) > 1 else "".join(matching) or "neither"
 
     @property
     def digits(self) -> str:
-        """How the error of the larger becomes the printed one: "rounded", "cut off", or "no"."""
+        """Conversion of `of_larger` to the printed digits: "rounded", "cut off", or "no" for none."""
         return _digits(self.of_larger, self.printed) or "no"
 
 
 def cells() -> list[Cell]:
-    """Return every printed error, in its order."""
-    found, moved = [], published_displacements()
+    """Return every printed error, in the published order."""
+    out, displacements = [], published_displacements()
     for (test, component, probe), value in published_errors().items():
-        model, experiment = (abs(moved[test, source, component, probe]) for source in SOURCES)
-        both = (abs(model - experiment) / size if size else 0.0 for size in (experiment, model))
-        found.append(Cell(test, component, probe, value, *both))
-    return found
+        model, experiment = (abs(displacements[test, source, component, probe]) for source in SOURCES)
+        errors = (abs(model - experiment) / size if size else 0.0 for size in (experiment, model))
+        out.append(Cell(test, component, probe, value, *errors))
+    return out
 
 
 def _digits(computed: float, value: float) -> str:
-    """How a computed error becomes the printed one, "" where it does not."""
+    """Return the conversion of a computed error to the printed digits, "" if they differ."""
     digit = round(value / PRINTED)
     if floor(computed / PRINTED + 0.5 + _SLACK) == digit:
         return "rounded"
@@ -76,7 +76,7 @@ def _digits(computed: float, value: float) -> str:
 
 
 def findings(cells: list[Cell]) -> list[Finding]:
-    """Return what the printed errors are relative to, and their mean beside the one that is quoted."""
+    """Return findings on the normalisation of the printed errors, and on their mean and the quoted one."""
     mean, digits = means(cells), [cell.digits for cell in cells]
     sentences = (
         f"{len(cells) - digits.count('no')} of {len(cells)} printed errors are the difference over the "
@@ -90,18 +90,18 @@ def findings(cells: list[Cell]) -> list[Finding]:
 
 
 def table(cells: list[Cell]) -> Table:
-    """Return a row per printed error."""
+    """Return a table with a row per printed error."""
     caption = "Printed errors, computed again"
     return Table.of(Cell, cells, caption, "errors", fields=SHOWN, grouped=True, text=TEXT)
 
 
 def as_dict(cells: list[Cell]) -> dict[str, Any]:
-    """Return the cells and their means for JSON."""
-    shown = [{**vars(one), "of_larger": one.of_larger, "of": one.of, "digits": one.digits} for one in cells]
-    return {"cells": shown, "means": {**means(cells), "quoted": published_inputs()["mean_error"]}}
+    """Return the cells and their means as JSON data."""
+    rows = [{**vars(c), "of_larger": c.of_larger, "of": c.of, "digits": c.digits} for c in cells]
+    return {"cells": rows, "means": {**means(cells), "quoted": published_inputs()["mean_error"]}}
 
 
 def means(cells: list[Cell]) -> dict[str, float]:
-    """The mean of the cells as printed, of the experiment, of the model, and of the larger of the two."""
+    """Return the means of the printed errors and of the errors by each normalisation."""
     names = ("printed", "of_experiment", "of_model", "of_larger")
     return {name: float(np.mean([getattr(cell, name) for cell in cells])) for name in names}

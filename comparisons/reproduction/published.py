@@ -1,4 +1,4 @@
-"""What Habibi et al. published, as data: inputs and displacements in SI units, printed errors, known faults.
+"""Data published by Habibi et al.: inputs and displacements in SI units, printed errors, known faults.
 
 Source: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation continuum
 surfaces. See data/README.md.
@@ -40,14 +40,12 @@ def published_displacements() -> dict[tuple[int, str, str, str], float]:
 
 
 def published_inputs() -> dict[str, float]:
-    """Return every published input and figure by name, in SI units, errors as fractions; the file says what
-    each is."""
+    """Return every published input and figure by name, in SI units, errors as fractions (inputs.csv)."""
     return {row["quantity"]: float(row["value"]) * _SI.get(row["unit"], 1.0) for row in _rows("inputs.csv")}
 
 
 def published_errors() -> dict[tuple[int, str, str], float]:
-    """Return every printed error of the published model against its experiment, as a fraction, by test,
-    component and probe."""
+    """Return every printed error of the model as a fraction, by test, component and probe."""
     return {
         (int(row["test"]), row["component"], probe): float(row[probe]) / 100
         for row in _rows("errors_printed.csv")

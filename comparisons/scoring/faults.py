@@ -1,10 +1,11 @@
-"""What is wrong with answers, as far as the reference tells: units, signs, swapped probes.
+"""Likely mistakes in answers, detected by comparison with the reference: units, signs, swapped probes.
 
-Each is looked for in what is left when those before it are mended, so that several at once are named:
+Detected mistakes are corrected before the next test, so several at once are reported:
 
-    unit    a case a thousand times too large or small, within a factor of 3; of frequencies 2π: rad/s
-    sign    a component that correlates with the reference's by less than −0.9
-    swap    two probes, where exchanging them leaves less than a quarter of an error that is no small one
+    unit    a case a thousand times too large or small, within a factor of 3; frequencies 2π times too large:
+            rad/s
+    sign    a component whose correlation with the reference's is below −0.9
+    swap    two probes whose exchange reduces a large error to less than a quarter
 """
 
 from __future__ import annotations
@@ -19,40 +20,40 @@ from sheetbench.choices import listed
 
 FACTOR, NEAR = 1000.0, 3.0
 OPPOSITE = -0.9
-SEEN = 0.01  # of the largest displacement: components and errors that mean something
-MENDED = 0.25
+SIGNIFICANT = 0.01  # of the largest displacement: smaller components and errors are ignored
+REDUCTION = 0.25
 AXES = ("ux", "uy", "uz")
 
 
 def faults(answers: Sequence[Answer]) -> list[str]:
-    """Sentences, one a fault, that name the cases."""
+    """Return a sentence per mistake, with the names of its cases."""
     cases: dict[str, list[str]] = {}
     for answer in answers:
         values, of_modes = answer.values, answer.reference.suite == "modes"
-        for mend in (_frequency,) if of_modes else (_unit, _sign, _swap):
-            sentences, values = mend(answer, values)
+        for correct in (_frequency,) if of_modes else (_unit, _sign, _swap):
+            sentences, values = correct(answer, values)
             for sentence in sentences:
                 cases.setdefault(sentence, []).append(answer.reference.name)
-    return [f"{sentence} in {_named(names, len(answers))}" for sentence, names in cases.items()]
+    return [f"{sentence} in {_listed(names, len(answers))}" for sentence, names in cases.items()]
 
 
-def _named(names: list[str], of: int) -> str:
-    if len(names) == of and of > 1:
-        return f"all {of} cases"
+def _listed(names: list[str], total: int) -> str:
+    if len(names) == total and total > 1:
+        return f"all {total} cases"
     return f"{', '.join(names[:3])}{f' and {len(names) - 3} more' if len(names) > 3 else ''}"
 
 
-Mended = tuple[list[str], np.ndarray]
+Corrected = tuple[list[str], np.ndarray]  # sentences on mistakes, and the values without them
 
 
-def _frequency(answer: Answer, values: np.ndarray) -> Mended:
+def _frequency(answer: Answer, values: np.ndarray) -> Corrected:
     ratio = float(np.linalg.norm(values) / np.linalg.norm(answer.reference.values)) / (2.0 * np.pi)
     if abs(ratio - 1.0) >= 0.1:
         return [], values
     return ["frequencies are 2π times too large, as in rad/s for Hz,"], values / (2.0 * np.pi)
 
 
-def _unit(answer: Answer, values: np.ndarray) -> Mended:
+def _unit(answer: Answer, values: np.ndarray) -> Corrected:
     ratio = float(np.linalg.norm(values) / np.linalg.norm(answer.reference.values))
     for factor, size in ((FACTOR, "large, as in mm for m,"), (1.0 / FACTOR, "small")):
         if 1.0 / NEAR < ratio / factor < NEAR:
@@ -60,20 +61,21 @@ def _unit(answer: Answer, values: np.ndarray) -> Mended:
     return [], values
 
 
-def _sign(answer: Answer, values: np.ndarray) -> Mended:
+def _sign(answer: Answer, values: np.ndarray) -> Corrected:
     truth = answer.reference.values
     largest = np.abs(truth).max()
     flipped = [
         axis
         for axis in range(3)
-        if np.abs(truth[..., axis]).max() > SEEN * largest and _correlation(values, truth, axis) < OPPOSITE
+        if np.abs(truth[..., axis]).max() > SIGNIFICANT * largest
+        and _correlation(values, truth, axis) < OPPOSITE
     ]
     if not flipped:
         return [], values
-    mended = values.copy()
-    mended[..., flipped] *= -1.0
+    corrected = values.copy()
+    corrected[..., flipped] *= -1.0
     names = listed([AXES[axis] for axis in flipped], "and")
-    return [f"{names} {'have' if len(flipped) > 1 else 'has'} the opposite sign"], mended
+    return [f"{names} {'have' if len(flipped) > 1 else 'has'} the opposite sign"], corrected
 
 
 def _correlation(values: np.ndarray, truth: np.ndarray, axis: int) -> float:
@@ -82,19 +84,19 @@ def _correlation(values: np.ndarray, truth: np.ndarray, axis: int) -> float:
     return float(a @ b) / size if size > 0.0 else 0.0
 
 
-def _swap(answer: Answer, values: np.ndarray) -> Mended:
+def _swap(answer: Answer, values: np.ndarray) -> Corrected:
     truth, names = answer.reference.values, list(answer.reference.scene.probes)
-    before = _error(values, truth)
-    if len(names) < 2 or before <= max(SEEN, 3.0 * answer.reference.bar):  # a small one
+    error = _error(values, truth)
+    if len(names) < 2 or error <= max(SIGNIFICANT, 3.0 * answer.reference.bar):
         return [], values
 
     def swapped(pair: tuple[int, int]) -> np.ndarray:
-        found = values.copy()
-        found[list(pair)] = values[list(pair[::-1])]
-        return found
+        out = values.copy()
+        out[list(pair)] = values[list(pair[::-1])]
+        return out
 
     best = min(combinations(range(len(names)), 2), key=lambda pair: _error(swapped(pair), truth))
-    if _error(swapped(best), truth) > MENDED * before:
+    if _error(swapped(best), truth) > REDUCTION * error:
         return [], values
     return [f"probes {names[best[0]]} and {names[best[1]]} look swapped"], swapped(best)
 

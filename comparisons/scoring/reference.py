@@ -1,11 +1,11 @@
-"""The reference set as it is kept: scenes, converged values, error bars, version and licence.
+"""The stored reference set: scenes, converged values, error bars, version and licence.
 
 statics  displacement at the probes
 motion   displacement at the probes over time, from rest, weight and loads on at t = 0
-modes    the lowest natural frequencies about the flat, stress-free sheet
-curves   as statics: strips whose answer depends on one number alone
-natural  as statics: sheets that are not flat at rest
-contact  as statics: sheets that touch something
+modes    lowest natural frequencies about the flat, stress-free sheet
+curves   as statics: strips whose answer depends on one parameter
+natural  as statics: sheets with a curved stress-free shape
+contact  as statics: sheets in contact with an obstacle
 
 `sheetbench study reference-set` computes the values of the scenes in the file.
 """
@@ -33,8 +33,8 @@ AT_REST = ("statics", "curves", "natural", "contact")  # displacements without t
 @dataclass(frozen=True, eq=False)
 class Reference:
     """A case with its values: displacements (probes, 3) [m], with times (t,) [s] (probes, t, 3), or natural
-    frequencies (k,) [Hz]; bars of each; bar: the largest over the largest value; judges: codes that solved
-    the case, and how far each is off."""
+    frequencies (k,) [Hz]; bars: error bar of each value; bar: the largest one over the largest value; judges:
+    other models that solved the case, with their errors."""
 
     name: Annotated[str, Column("case")]
     suite: str
@@ -49,26 +49,26 @@ class Reference:
 
     @property
     def agreeing(self) -> list[str]:
-        """Models within one percent, or within the bar."""
+        """Names of the models within one percent or within the bar."""
         limit = max(0.01, self.bar)
-        return [j["model"] for j in self.judges if j["error"] is not None and j["error"] <= limit]
+        return [row["model"] for row in self.judges if row["error"] is not None and row["error"] <= limit]
 
 
 @cache
 def document() -> dict[str, Any]:
-    """The whole set as plain data."""
+    """Return the whole set as plain data."""
     return dict(json.loads(FILE.read_text(encoding="utf-8")))
 
 
 @cache
 def references(suite: str | None = None) -> dict[str, Reference]:
-    """The cases of a suite, or all of them, by name."""
-    every = (_reference(case) for case in document()["cases"])
-    return {case.name: case for case in every if suite in (None, case.suite)}
+    """Return the cases of a suite, by default of all suites, by name."""
+    cases = (_reference(case) for case in document()["cases"])
+    return {case.name: case for case in cases if suite in (None, case.suite)}
 
 
 def reference(name: str, suite: str | None = None) -> Reference:
-    """One case. Raises BadInput for a name that there is not."""
+    """Return a case by name. Raises BadInput for an unknown name."""
     known = references(suite)
     require_choice("--case", name, known)
     return known[name]
@@ -79,7 +79,7 @@ def _reference(case: dict[str, Any]) -> Reference:
         values, bars = case["frequencies_hz"]["f"], case["frequencies_hz"]["bar"]
     else:
         values, bars = ([probe[key] for probe in case["probes"].values()] for key in ("u", "bar"))
-    if "time" in case:  # one bar a probe and component, at all times
+    if "time" in case:  # one bar per probe and component, for all times
         bars = np.broadcast_to(np.array(bars)[:, None], np.shape(values))
     return Reference(
         name=case["name"],

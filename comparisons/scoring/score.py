@@ -1,11 +1,11 @@
-"""Answers to a suite beside its reference, our own models and other people's programs.
+"""Answers to a suite, scored against its reference and ranked with our models and other programs.
 
-    error   of a case, as everywhere: largest |component of u − u_ref| over the probes (and times) / largest
-            |component of u_ref|; of frequencies the largest |f/f_ref − 1|
-    score   the geometric mean over the cases of the error, none counted below the reference's own bar and
-            none above 1, which is also what a case without an answer counts
+    error   largest |component of u − u_ref| over the probes (and times) of a case / largest |component of
+            u_ref|; for frequencies the largest |f/f_ref − 1|
+    score   geometric mean over the cases of the error, clipped to the range from the reference's error bar
+            to 1; a case without an answer counts as 1
 
-An answer within the reference's bar is not distinguishable from it.
+An answer within the reference's error bar is not distinguishable from the reference.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ from sheetbench.choices import REFERENCES
 OWN = "answers"
 OWN_MODELS = ("lumped", *REFERENCES)
 SIZES = ("grid", "elements")
-WHOSE = YOURS, OURS, OTHERS = "yours", "ours", "other program"
+ORIGINS = YOURS, OURS, OTHERS = "yours", "ours", "other program"
 
 
 @dataclass(frozen=True)
 class Row:
-    """A probe of a case, or a mode: its error, and whether that is more than the bar there."""
+    """The error at a probe or of a mode of a case; distinguishable: whether it exceeds its error bar."""
 
     case: str
     probe: str
@@ -46,8 +46,7 @@ class Row:
 
 @dataclass(frozen=True)
 class CaseRow:
-    """A case: its largest error, the reference's bar, whether that is less, and the time [s] where it was
-    given."""
+    """A case: its largest error, the reference's bar, whether the error exceeds it, and the time [s]."""
 
     case: str
     error: Annotated[float, PERCENT(".3g")]
@@ -58,8 +57,7 @@ class CaseRow:
 
 @dataclass(frozen=True)
 class Place:
-    """A model's score and the geometric mean of its times [s], None where they are not given; whose: one of
-    `WHOSE`."""
+    """A model's score and the geometric mean of its times [s], None if not given; whose: one of `ORIGINS`."""
 
     model: str
     score: Annotated[float, PERCENT(".3g")]
@@ -69,7 +67,7 @@ class Place:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Score(ShownAnswer):
-    """Answers to a suite with what they get wrong; unanswered: cases that were requested and are open."""
+    """Answers to a suite with their errors and likely mistakes; unanswered: requested cases that are open."""
 
     file_name = "score"
     suite: str
@@ -78,42 +76,41 @@ class Score(ShownAnswer):
 
     @property
     def rows(self) -> list[Row]:
-        """One a probe or a mode."""
+        """Errors by probe or mode."""
         return [row for answer in self.answers for row in _rows(answer)]
 
     @cached_property
     def faults(self) -> list[str]:
-        """Sentences."""
+        """Likely mistakes, a sentence each."""
         return faults(self.answers)
 
     def error(self, answer: Answer) -> float:
-        """The error of a case."""
+        """Return the error of a case."""
         return max(row.error for row in _rows(answer))
 
     @property
     def score(self) -> float:
-        """Of all cases."""
+        """The score over all answered cases."""
         return mean([self.error(a) for a in self.answers], [a.reference for a in self.answers])
 
     @property
     def cases(self) -> list[CaseRow]:
-        """One a case."""
-        rated = ((a, self.error(a)) for a in self.answers)
+        """Errors by case."""
+        errors = ((a, self.error(a)) for a in self.answers)
         return [
-            CaseRow(a.reference.name, e, a.reference.bar, e > a.reference.bar, a.seconds) for a, e in rated
+            CaseRow(a.reference.name, e, a.reference.bar, e > a.reference.bar, a.seconds) for a, e in errors
         ]
 
     @property
     def leaderboard(self) -> list[Place]:
-        """These answers and other models on the same cases, the best first."""
-        times = [answer.seconds for answer in self.answers]
-        known = [time for time in times if time]
-        own = Place(OWN, self.score, _geometric(known) if len(known) == len(times) else None, YOURS)
-        ours = own_models([answer.reference for answer in self.answers])
-        return sorted([own, *ours], key=lambda one: one.score)
+        """Scores of the answers and of other models on their cases, the best first."""
+        times = [answer.seconds for answer in self.answers if answer.seconds]
+        seconds = _geometric(times) if len(times) == len(self.answers) else None
+        others = other_models([answer.reference for answer in self.answers])
+        return sorted([Place(OWN, self.score, seconds, YOURS), *others], key=lambda place: place.score)
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench score`."""
+        """Return the JSON document of `sheetbench score`."""
         return {
             "suite": self.suite,
             "version": document()["version"],
@@ -124,7 +121,7 @@ class Score(ShownAnswer):
             "stiffer": stiffness(self.answers),
             "faults": self.faults,
             "score": self.score,
-            "standing": [asdict(one) for one in self.leaderboard],
+            "standing": [asdict(place) for place in self.leaderboard],
         }
 
     @property
@@ -132,10 +129,10 @@ class Score(ShownAnswer):
         return verdict(self.answers, [self.error(answer) for answer in self.answers], self.faults)
 
     def heading(self) -> tuple[str, str, str]:
-        many, every = len(self.answers), len(self.answers) + len(self.unanswered)
-        of = "1 case" if every == 1 else f"{many} cases" if many == every else f"{many} of {every} cases"
+        answered, total = len(self.answers), len(self.answers) + len(self.unanswered)
+        cases = "1 case" if total == 1 else f"{'' if answered == total else f'{answered} of '}{total} cases"
         title = f"score {number(100 * self.score, '.3g')} %"
-        return title, f"on {of} of {self.suite}, reference set {document()['version']}", self._verdict
+        return title, f"on {cases} of {self.suite}, reference set {document()['version']}", self._verdict
 
     def tables(self) -> tuple[Table, ...]:
         cases, *place = self.printed()
@@ -143,7 +140,7 @@ class Score(ShownAnswer):
 
     def printed(self) -> tuple[Table, ...]:
         cases = Table.of(CaseRow, self.cases, "Errors by case", "cases")
-        caption = "Beside our own models and other programs on the same cases"
+        caption = "Scores of our models and other programs on these cases"
         place = Table.of(
             Place, self.leaderboard, caption, "place", fields=("model", "whose", "score", "seconds")
         )
@@ -157,27 +154,28 @@ class Score(ShownAnswer):
 
     def notes(self) -> list[str]:
         notes = [
-            "error: largest difference over the reference's largest value; distinguishable: above its bar",
+            "error: largest difference over the reference's largest value; distinguishable: yes if the error "
+            "is larger than the reference's error bar",
             "score: geometric mean of the cases' errors, none below the reference's bar, none above 100 %",
         ]
         if self.unanswered:
             notes.append(f"not answered yet: {', '.join(self.unanswered)}")
         if len(self.leaderboard) > 1:
-            if any(one.seconds is not None for one in self.leaderboard if one.model != OWN):
-                made = document()["made_with"]["machine"].get("processor", "another machine")
-                notes.append(f"times of the others are geometric means, measured on {made}")
+            if any(place.seconds is not None for place in self.leaderboard if place.model != OWN):
+                machine = document()["made_with"]["machine"].get("processor", "another machine")
+                notes.append(f"times of the others are geometric means, measured on {machine}")
             notes.append(self.place)
         return notes
 
     @property
     def place(self) -> str:
-        """The place among other models by score, and the model of the nearest score."""
+        """Rank among other models by score, and the model of the nearest score, in words."""
         ranked = self.leaderboard
-        at = [one.model for one in ranked].index(OWN)
-        others = [one for one in ranked if one.model != OWN]
-        nearest = min(others, key=lambda one: abs(np.log(max(one.score, 1e-12) / max(self.score, 1e-12))))
+        rank = [place.model for place in ranked].index(OWN) + 1
+        others = [place for place in ranked if place.model != OWN]
+        nearest = min(others, key=lambda place: abs(np.log(max(place.score, 1e-12) / max(self.score, 1e-12))))
         return (
-            f"you rank {at + 1} of {len(ranked)}; nearest neighbour {nearest.model}, "
+            f"you rank {rank} of {len(ranked)}; nearest neighbour {nearest.model}, "
             f"{number(100 * nearest.score, '.3g')} %"
         )
 
@@ -193,20 +191,16 @@ class Score(ShownAnswer):
 
 
 def score(path: Path, suite: str | None = None, case: str | Sequence[str] = ()) -> Score:
-    """The score of a file of answers to a suite, or to a case or some cases of it.
-
-    suite: the one that the file's header is of unless given. Raises BadInput for what the file lacks.
-    """
+    """Score a file of answers to a suite, or to one or some of its cases. suite: by default from the file's
+    header. Raises BadInput for an incomplete or invalid file."""
     answers, unanswered = read_answers(path, suite, [case] if isinstance(case, str) else case)
-    return Score(answers[0].reference.suite, tuple(answers), tuple(one.name for one in unanswered))
+    return Score(answers[0].reference.suite, tuple(answers), tuple(case.name for case in unanswered))
 
 
-def mean(errors: Sequence[float | None], of: Sequence[Reference]) -> float:
-    """The score of errors on cases."""
-    counted = [
-        1.0 if error is None else min(1.0, max(error, one.bar)) for error, one in zip(errors, of, strict=True)
-    ]
-    return _geometric(counted)
+def mean(errors: Sequence[float | None], cases: Sequence[Reference]) -> float:
+    """Return the score of errors on cases."""
+    pairs = zip(errors, cases, strict=True)
+    return _geometric([1.0 if error is None else min(1.0, max(error, case.bar)) for error, case in pairs])
 
 
 def _geometric(values: Sequence[float]) -> float:
@@ -214,42 +208,40 @@ def _geometric(values: Sequence[float]) -> float:
 
 
 def _rows(answer: Answer) -> list[Row]:
-    known = answer.reference
-    off, truth = np.abs(answer.values - known.values), np.abs(known.values)
-    if known.suite == "modes":
-        names, errors = [f"mode {n + 1}" for n in range(len(truth))], off / truth
-        distinguishable = off > known.bars
+    case = answer.reference
+    difference, truth = np.abs(answer.values - case.values), np.abs(case.values)
+    if case.suite == "modes":
+        names, errors = [f"mode {n + 1}" for n in range(len(truth))], difference / truth
+        distinguishable = difference > case.bars
     else:
-        names = list(known.scene.probes)
-        errors = off.reshape(len(off), -1).max(axis=1) / truth.max()
-        distinguishable = (off > known.bars).reshape(len(off), -1).any(axis=1)
-    every = zip(names, errors.tolist(), distinguishable.tolist(), strict=True)
-    return [Row(known.name, name, error, differs) for name, error, differs in every]
+        names = list(case.scene.probes)
+        errors = difference.reshape(len(difference), -1).max(axis=1) / truth.max()
+        distinguishable = (difference > case.bars).reshape(len(difference), -1).any(axis=1)
+    values = zip(names, errors.tolist(), distinguishable.tolist(), strict=True)
+    return [Row(case.name, name, error, differs) for name, error, differs in values]
 
 
-def own_models(cases: Sequence[Reference]) -> list[Place]:
-    """Our own models and other programs that have an answer to any of these cases, as they were measured."""
+def other_models(cases: Sequence[Reference]) -> list[Place]:
+    """Return the stored scores of our models and of other programs with an answer to any of the cases."""
     rows: dict[str, dict[str, dict[str, Any]]] = {}
     names = {case.name for case in cases}
-    leaderboard = [row for row in document()["standing"] if row["case"] in names]
-    for row in leaderboard or [row for case in cases for row in _of_models(case)]:
+    stored = [row for row in document()["standing"] if row["case"] in names]
+    for row in stored or [row for case in cases for row in _judge_rows(case)]:
         rows.setdefault(str(spec_of(row["model"], row["settings"])), {})[row["case"]] = row
-    return [
-        Place(
-            name,
-            mean([of_model[case.name]["error"] for case in cases], cases),
-            _geometric(times)
-            if (times := [t for row in answered.values() if (t := row["seconds"])])
-            else None,
-            OURS if next(iter(of_model.values()))["model"] in OWN_MODELS else OTHERS,
-        )
-        for name, of_model in rows.items()
-        if (answered := {case: row for case, row in of_model.items() if row["error"] is not None})
-    ]
+    places = []
+    for name, of_model in rows.items():
+        answered = [row for row in of_model.values() if row["error"] is not None]
+        if not answered:
+            continue
+        times = [row["seconds"] for row in answered if row["seconds"]]
+        origin = OURS if answered[0]["model"] in OWN_MODELS else OTHERS
+        score = mean([of_model[case.name]["error"] for case in cases], cases)
+        places.append(Place(name, score, _geometric(times) if times else None, origin))
+    return places
 
 
-def _of_models(case: Reference) -> list[dict[str, Any]]:
-    """Other models that solved a case when the set was made, whose times were not kept."""
+def _judge_rows(case: Reference) -> list[dict[str, Any]]:
+    """Return rows of other models that solved a case when the set was made; their times are not stored."""
     return [
         {**row, "case": case.name, "seconds": None, "settings": {k: row[k] for k in SIZES if k in row}}
         for row in case.judges

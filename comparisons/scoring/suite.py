@@ -1,4 +1,4 @@
-"""What the reference set shows: its cases, and as files scenes, values and a form for answers."""
+"""The reference set as an answer: its cases, and as files scenes, values and a form for answers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ say that they are the reference set {version} of sheetbench. The program has a l
 
 
 class Suite(Answer):
-    """The cases of the reference set, or those of one suite: what `sheetbench score` lists."""
+    """The cases of the reference set, or of one suite, as `sheetbench score` lists them."""
 
     file_name = "suite"
     page_name = "cases"
@@ -40,8 +40,8 @@ class Suite(Answer):
         return f"reference set {self._whole['version']}", subtitle, ""
 
     def document(self) -> dict[str, Any]:
-        kept = [case for case in self._whole["cases"] if case["name"] in self.cases]
-        return {**self._whole, "cases": kept}
+        cases = [case for case in self._whole["cases"] if case["name"] in self.cases]
+        return {**self._whole, "cases": cases}
 
     def tables(self) -> list[Table]:
         caption = "Cases of the reference set"
@@ -49,8 +49,8 @@ class Suite(Answer):
 
     def notes(self) -> tuple[str, ...]:
         return (
-            "bar: uncertainty by the reference's mesh and steps, over its largest value; agreeing: "
-            "models within that or 1 %",
+            "bar: uncertainty due to the reference's mesh and steps, over its largest value; agreeing: "
+            "models within the bar or 1 %",
             "--out DIR writes scenes, values and forms for answers; sheetbench score "
             f"answers-{self.suite or 'statics'}.csv scores a filled one",
         )
@@ -70,37 +70,35 @@ class Suite(Answer):
 
 
 def _places(case: Reference) -> Iterator[tuple[list[Any], np.ndarray, np.ndarray, Sequence[float]]]:
-    """Yield what names every row of a case, its values and their bars, and where the probe is [m]."""
+    """Yield of every row of a case its key columns, values, their bars, and the probe's position [m]."""
     if case.suite == "modes":
-        for number, both in enumerate(zip(case.values[:, None], case.bars[:, None], strict=True), 1):
-            yield [number], *both, ()
+        for number, (value, bar) in enumerate(zip(case.values[:, None], case.bars[:, None], strict=True), 1):
+            yield [number], value, bar, ()
         return
-    for (name, at), u, by in zip(case.scene.probes.items(), case.values, case.bars, strict=True):
+    for (name, at), u, bar in zip(case.scene.probes.items(), case.values, case.bars, strict=True):
         if case.time is None:
-            yield [name], u, by, at
+            yield [name], u, bar, at
         else:
-            yield from (([name, time], u[n], by[n], at) for n, time in enumerate(case.time.tolist()))
+            yield from (([name, time], u[n], bar[n], at) for n, time in enumerate(case.time.tolist()))
 
 
 def _values(cases: Sequence[Reference]) -> str:
-    """Values and bars as CSV; x, y [m]: where the probe is."""
+    """Return values and bars as CSV; x, y [m]: position of the probe."""
     names, numbers = _columns(cases[0].suite)
     places, bars = (("x", "y"), ("bar_x", "bar_y", "bar_z")) if len(numbers) == 3 else ((), ("bar",))
-    rows = ([case.name, *named, *at, *u, *by] for case in cases for named, u, by, at in _places(case))
+    rows = ([case.name, *keys, *at, *u, *bar] for case in cases for keys, u, bar, at in _places(case))
     return Table.listed("", [*names, *places, *numbers, *bars], rows).to_csv()
 
 
 def _form(cases: Sequence[Reference]) -> str:
-    """A file of answers with the numbers left out."""
+    """Return a form for answers as CSV, with empty numbers."""
     names, numbers = _columns(cases[0].suite)
     places = ("x", "y") if len(numbers) == 3 else ()
-    rows = (
-        [case.name, *named, *[""] * len(u), "", *at] for case in cases for named, u, _, at in _places(case)
-    )
+    rows = ([case.name, *keys, *[""] * len(u), "", *at] for case in cases for keys, u, _, at in _places(case))
     return Table.listed("", [*names, *numbers, "seconds", *places], rows).to_csv()
 
 
 def _columns(suite: str) -> tuple[list[str], list[str]]:
-    """Return the columns that say where, and those of numbers."""
-    where = [name for name in HEADERS[suite] if name in PLACES]
-    return where, [name for name in HEADERS[suite] if name not in PLACES]
+    """Return the key columns of a suite's rows, and the columns of numbers."""
+    keys = [name for name in HEADERS[suite] if name in PLACES]
+    return keys, [name for name in HEADERS[suite] if name not in PLACES]

@@ -1,1 +1,1 @@
-"""Where each model of a scene holds, degrades or refuses, as its sheet goes to extremes."""
+"""Ranges of a scene's parameters in which each model is accurate, inaccurate, refuses or fails."""

@@ -1,11 +1,11 @@
-"""Where each model of a scene holds, the largest stable steps, every run: the answer of `stability`."""
+"""Ranges in which each model is accurate, largest stable steps, and all runs: the answer of `stability`."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
+from typing import Annotated, Any
 
 from comparisons.stability.rows import LARGE, Row, broken, place, verdict, who
 from sheetbench.answers.answer import Answer
@@ -18,28 +18,39 @@ MICROSECONDS = TableUnit("s", "µs", 1e6)
 
 
 ENDS = ("holds", "off", "refuses", "fails")
-HOLDS = (
-    *(
-        "varied",
-        "model",
-        *(Column(name, prose=True) for name in ("holds", f"off by more than {100.0 * LARGE:g} %")),
-    ),
-    *(Column("refuses", prose=True), Column("fails", prose=True)),
-    PERCENT(".2g", "largest error where it holds"),
-)
-STEPS = (
-    *("integrator", "damping", MICROSECONDS(".4g", "largest step"), MICROSECONDS(".4g", "default step")),
-    "a run with it",
-)
 RUNS = (
     *("status", PERCENT(".3g", "error"), NUMBER("d", "iterations")),
     *(MILLISECONDS(".3g", "seconds", shown_name="time"), Column("message", prose=True, detail=True)),
 )
 
 
+@dataclass(frozen=True)
+class SummaryRow:
+    """A parameter and a model: its values by verdict as text, and the largest error of values that hold."""
+
+    varied: str
+    model: str
+    holds: Annotated[str, Column(prose=True)]
+    off: Annotated[str, Column(f"off by more than {100.0 * LARGE:g} %", prose=True)]
+    refuses: Annotated[str, Column(prose=True)]
+    fails: Annotated[str, Column(prose=True)]
+    error: Annotated[float | None, PERCENT(".2g", "largest error where it holds")]
+
+
+@dataclass(frozen=True)
+class StepRow:
+    """Steps of an explicit integrator at a damping ratio, and the status of a run with the default step."""
+
+    integrator: str
+    damping: str
+    largest_step: Annotated[float, MICROSECONDS(".4g")]
+    default_step: Annotated[float, MICROSECONDS(".4g")]
+    status: Annotated[str, Column("a run with it")]
+
+
 @dataclass(frozen=True, repr=False)
 class Stability(Answer):
-    """The rows of what was varied of a scene; period: of its lowest mode [s], None unless it was needed."""
+    """Rows of all runs of a scene; period: of its lowest mode [s], None unless runs in motion need it."""
 
     file_name = "stability"
     scene: Scene
@@ -60,7 +71,7 @@ class Stability(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         studies = groupby(self.rows, key=lambda row: row["study"])
-        return (*self.printed(), *(cells(name, list(rows)) for name, rows in studies))
+        return (*self.printed(), *(run_table(name, list(rows)) for name, rows in studies))
 
     def printed(self) -> tuple[Table, ...]:
         steps = limits(self)
@@ -75,8 +86,8 @@ class Stability(Answer):
         return (f"{bound}, at rest against the {self.reference}, in motion against a fine step.",)
 
     def result(self) -> str:
-        ended = [verdict(row) for row in self.rows if place(row) is not None and verdict(row) in ENDS]
-        return f"{ended.count('holds')} of {len(ended)} cells hold"
+        verdicts = [verdict(row) for row in self.rows if place(row) is not None and verdict(row) in ENDS]
+        return f"{verdicts.count('holds')} of {len(verdicts)} cells hold"
 
     def complaints(self) -> list[str]:
         return broken(self.rows)
@@ -90,51 +101,52 @@ class Stability(Answer):
 
 
 def summary(maps: Stability) -> Table:
-    """Return a row per study and model: over what it holds, degrades, refuses and fails, the worst error
-    held."""
+    """Return a table of the parameter ranges by verdict, with a row per study and model."""
     rows, order = [], _order(maps)
-    for (study, name), some in groupby(
+    for (study, name), group in groupby(
         sorted(maps.rows, key=lambda row: (list(VARIED).index(row["study"]), order[who(row)])),
         key=lambda row: (row["study"], who(row)),
     ):
-        of = [row for row in some if place(row) is not None]
-        errors = [row["error"] for row in of if verdict(row) == "holds" and row["error"] is not None]
-        rows.append((VARIED[study], name, *(_ranges(of, end) for end in ENDS), max(errors, default=None)))
-    return Table.listed("Where each model is accurate", HOLDS, rows, "holds", grouped=True)
+        runs = [row for row in group if place(row) is not None]
+        errors = [row["error"] for row in runs if verdict(row) == "holds" and row["error"] is not None]
+        holds, off, refuses, fails = (_ranges(runs, end) for end in ENDS)
+        worst = max(errors, default=None)
+        rows.append(SummaryRow(VARIED[study], name, holds, off, refuses, fails, worst))
+    return Table.of(SummaryRow, rows, "Where each model is accurate", "holds", grouped=True)
 
 
 def _order(maps: Stability) -> dict[str, int]:
-    """Return the place of each model and integrator."""
+    """Return the order of models and integrators by their first row."""
     return {name: place for place, name in enumerate(dict.fromkeys(map(who, maps.rows)))}
 
 
 def _ranges(rows: Iterable[Row], end: str) -> str:
-    """Return the places of the cells that ended so, neighbours as a range."""
-    sentences = []
-    for here, some in groupby(sorted(rows, key=place), key=lambda row: verdict(row) == end):
-        places = [place(row) * (1e3 if row["study"] == "time-step" else 1.0) for row in some]
-        if here:
+    """Return the parameter values of rows with a verdict as text, neighbours as a range."""
+    ranges = []
+    for matches, group in groupby(sorted(rows, key=place), key=lambda row: verdict(row) == end):
+        places = [place(row) * (1e3 if row["study"] == "time-step" else 1.0) for row in group]
+        if matches:
             ends = [number(at, ".4g") for at in dict.fromkeys((places[0], places[-1]))]
-            sentences.append(" to ".join(ends))
-    return ", ".join(sentences) or "–"
+            ranges.append(" to ".join(ends))
+    return ", ".join(ranges) or "–"
 
 
 def limits(maps: Stability) -> Table:
-    """Return a row per explicit integrator and damping: its largest stable step and the default one."""
-    known = [row for row in maps.rows if row["study"] == "damping" and row.get("computed") is not None]
+    """Return a table of largest stable and default steps, with a row per explicit integrator and damping."""
+    runs = [row for row in maps.rows if row["study"] == "damping" and row.get("computed") is not None]
     order = _order(maps)
     rows = []
-    for row in sorted(known, key=lambda row: order[who(row)]):
+    for row in sorted(runs, key=lambda row: order[who(row)]):
         ratio = "the scene's" if place(row) is None else f"ratio {number(place(row), 'g')}"
-        rows.append((who(row), ratio, *map(row.get, ("computed", "advised", "status"))))
-    return Table.listed("Largest stable steps", STEPS, rows, "steps", grouped=True)
+        rows.append(StepRow(who(row), ratio, row["computed"], row["advised"], row["status"]))
+    return Table.of(StepRow, rows, "Largest stable steps", "steps", grouped=True)
 
 
-def cells(name: str, of: list[Row]) -> Table:
-    """Return a row per run of what was varied."""
-    caption = VARIED[name].partition(" [")[0]
-    varied = (MILLISECONDS if name == "time-step" else NUMBER)(".4g", caption.partition(",")[0])
-    what = "integrator" if "integrator" in of[0]["cell"] else "model"
+def run_table(study: str, rows: list[Row]) -> Table:
+    """Return a table of a study's runs."""
+    caption = VARIED[study].partition(" [")[0]
+    varied = (MILLISECONDS if study == "time-step" else NUMBER)(".4g", caption.partition(",")[0])
+    kind = "integrator" if "integrator" in rows[0]["cell"] else "model"
     keys = ("status", "error", "iterations", "seconds", "message")
-    rows = [(place(row), who(row), *(row[key] for key in keys)) for row in of]
-    return Table.listed(f"{caption.capitalize()}: every run", (varied, what, *RUNS), rows, name)
+    values = [(place(row), who(row), *(row[key] for key in keys)) for row in rows]
+    return Table.listed(f"{caption.capitalize()}: every run", (varied, kind, *RUNS), values, study)

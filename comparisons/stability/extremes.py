@@ -1,17 +1,15 @@
-"""Where each model of a scene holds, degrades, refuses or fails, as one thing about the sheet is varied.
+"""Runs of every model of a scene for extreme values of one parameter at a time.
 
-load         the weight and all loads, times a factor
-slenderness  the thickness, times a factor
-young        Young's modulus, times a factor
-obstacle     the distance of obstacles from the flat sheet, times a factor
-grid         the cells of the lattice, the elements of the references, along the shorter side
-damping      the damping time, such that the lowest mode has a share of critical damping: how runs of every
-             integrator with its default steps end, and the largest stable step of the explicit ones
-time-step    the steps of every integrator: shares of the largest of explicit ones, else of the lowest period
+load         weight and all loads, times a factor slenderness  thickness, times a factor young        Young's
+modulus, times a factor obstacle     distance of obstacles from the flat sheet, times a factor grid
+cells of the lattice, elements of the references, along the shorter side damping      damping time, for a
+fraction of critical damping of the lowest mode: runs of every integrator with its default steps, and the
+largest stable step of explicit integrators time-step    step of every integrator: fractions of the largest
+stable step of explicit integrators, else of the lowest period
 
-At rest, an error is the one at the probes against the reference on the same sheet, on the grid study against
-its finest mesh; in motion, the largest difference from a run of the midpoint rule with a fine step, over the
-largest displacement.
+Errors at rest are errors at the probes against the reference on the sheet with equal parameters, in the grid
+study against its finest mesh. Errors in motion are the largest difference from a run of the midpoint rule
+with a fine step, over the largest displacement.
 """
 
 from __future__ import annotations
@@ -43,7 +41,7 @@ from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.orthotropy import MODULI
 from sheetbench.scenes.objects.patches import Patch
 
-Cell = tuple[Ask, Ask | str | None]  # a run, and what its error is against, or why it is refused
+Cell = tuple[Ask, Ask | str | None]  # a run, and the run its error refers to, or the reason of a refusal
 FACTORS = {
     "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),
     "slenderness": (0.03, 0.1, 0.3, 1.0, 3.0, 10.0),
@@ -51,13 +49,13 @@ FACTORS = {
     "obstacle": (0.1, 0.3, 1.0, 2.0, 3.0),
 }
 CELLS = {"lumped": (2, 4, 8, 16, 32), "references": (2, 4, 8)}  # along the shorter side
-DAMPING = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0)  # of the lowest mode's critical one
+DAMPING = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0)  # of the lowest mode's critical damping
 SHARES = (0.3, 0.9, 1.1)  # of the largest stable step
-DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps a period
-FINE, SAMPLES = 400, 40  # steps of the midpoint rule and samples, a period
-PERIODS = 3.0  # of a run
+DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps per period
+FINE, SAMPLES = 400, 40  # per period: steps of the midpoint rule, samples
+PERIODS = 3.0  # duration of a run
 PARTS = ("patches", "layers")
-RUN_STEPS, RUN_PERIODS = 500, 2.0  # of a run with default steps: explicit steps, lowest periods, at most
+RUN_STEPS, RUN_PERIODS = 500, 2.0  # longest run with default steps: explicit steps, lowest periods
 
 
 def stability(
@@ -68,20 +66,20 @@ def stability(
     lattice: Lattice = Lattice(),  # noqa: B008  # frozen
     reference: str = REFERENCE,
     elements: Count = 12,
-    **how: Unpack[CampaignKeywords],
+    **campaign: Unpack[CampaignKeywords],
 ) -> Stability:
     """Vary a scene's sheet and solve it by every model, through a campaign's store.
 
-    varied: some of `choices.VARIED`. lattice: with what is not varied. elements: of the references, along the
-    shorter side or along x and y. Raises BadInput for what cannot be varied, for settings that contradict
-    each other, and for models that take more memory than there is.
+    varied: some of `choices.VARIED`. lattice: settings that are not varied. elements: of the references,
+    along the shorter side or along x and y. Raises BadInput for an impossible variation, contradictory
+    settings, and models that need more memory than is free.
     """
     resolve(scene, lattice, "motion")
     resolve(scene, Elements(reference, elements))
     kinds = dict.fromkeys(("plate", "shell", reference))
     models = {lattice.model: lattice, **{kind: Elements(kind, elements) for kind in kinds}}
-    moving = not {"damping", "time-step"}.isdisjoint(varied)
-    period = lumped.shortest_period(scene, resolve(scene, lattice).springs) if moving else 0.0
+    in_motion = not {"damping", "time-step"}.isdisjoint(varied)
+    period = lumped.shortest_period(scene, resolve(scene, lattice).springs) if in_motion else 0.0
     truth = models[reference]
     makers: dict[str, Callable[[], Iterator[Cell]]] = {
         **{name: partial(_scaled, scene, name, models, truth) for name in FACTORS},
@@ -90,11 +88,12 @@ def stability(
         "time-step": partial(_stepped, scene, lattice, period),
     }
     cells = [cell for name in VARIED if name in varied for cell in makers[name]()]
-    asks = [one for cell in cells if not isinstance(cell[1], str) for one in cell if isinstance(one, Ask)]
-    solved = {id(row.ask): row for row in sweep(asks, store, **how)}
+    asks = [ask for cell in cells if not isinstance(cell[1], str) for ask in cell if isinstance(ask, Ask)]
+    solved = {id(row.ask): row for row in sweep(asks, store, **campaign)}
     refused = str(Status.REFUSED)
     rows = tuple(
-        _row(solved.get(id(ask)) or Solved(ask, refused, str(why)), solved.get(id(why))) for ask, why in cells
+        _row(solved.get(id(ask)) or Solved(ask, refused, str(other)), solved.get(id(other)))
+        for ask, other in cells
     )
     return Stability(scene, reference, period or None, rows)
 
@@ -104,51 +103,51 @@ def _tags(study: str, **cell: Any) -> dict[str, Any]:
 
 
 def _scaled(scene: Scene, name: str, models: Mapping[str, Spec], truth: Spec) -> Iterator[Cell]:
-    there_is = {"load": scene.gravity or scene.loads, "obstacle": scene.obstacles}
-    if not there_is.get(name, True):
+    scalable = {"load": scene.gravity or scene.loads, "obstacle": scene.obstacles}
+    if not scalable.get(name, True):
         return
     for factor in FACTORS[name]:
-        label, refusal, there = f"{name} × {factor:g}", "", scene
+        label, refusal, variant = f"{name} × {factor:g}", "", scene
         try:
-            there = scaled(scene, name, factor)
-        except BadInput as impossible:
-            refusal = str(impossible)
-        against = Ask(there, truth, label=f"{truth.model} {label}")
+            variant = scaled(scene, name, factor)
+        except BadInput as error:
+            refusal = str(error)
+        reference = Ask(variant, truth, label=f"{truth.model} {label}")
         for model, spec in models.items():
             tags = _tags(name, factor=factor, model=model)
-            yield Ask(there, spec, tags=tags, label=f"{model} {label}"), refusal or against
+            yield Ask(variant, spec, tags=tags, label=f"{model} {label}"), refusal or reference
 
 
 def _grids(scene: Scene, models: Mapping[str, Any], truth: Any) -> Iterator[Cell]:
     meshes = {n: n for n in CELLS["references"]} | {min(truth.counts(scene)[:2]): truth.count}
     finest = max(meshes)
-    against = Ask(scene, truth.but(count=meshes[finest]), label=f"{truth.model} {finest} cells")
+    reference = Ask(scene, truth.but(count=meshes[finest]), label=f"{truth.model} {finest} cells")
     for model, spec in models.items():
         for count in CELLS.get(model) or sorted(meshes):
             sized = spec.but(grid=count + 1) if spec.MASSES else spec.but(count=meshes[count])
             tags = _tags("grid", cells=count, model=model)
-            yield Ask(scene, sized, tags=tags, label=f"{model} {count} cells"), against
+            yield Ask(scene, sized, tags=tags, label=f"{model} {count} cells"), reference
 
 
 def _damped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
     for ratio in (None, *DAMPING):
-        there = scene
+        variant = scene
         if ratio is not None:
             damping = {"damping_time": ratio * period / np.pi, "damping_rate": 0.0}
-            there = scene.replace(material=scene.material.replace(**damping))
-        springs = resolve(there, lattice, "springs").springs
+            variant = scene.replace(material=scene.material.replace(**damping))
+        springs = resolve(variant, lattice, "springs").springs
         for name, integrator in lumped.INTEGRATORS.items():
             tags, duration = _tags("damping", damping_ratio=ratio, integrator=name), RUN_PERIODS * period
-            if integrator.explicit and not scene.chains():  # else it is refused
-                flat = there.replace(gravity=None, loads=())
+            if integrator.explicit and not scene.chains():  # explicit integrators refuse chains
+                flat = variant.replace(gravity=None, loads=())
                 equations = lumped.System(flat, lumped.build_problem(flat, springs))
                 limit = integrator.limit(equations, np.zeros_like(equations.problem.loads.dead))
                 assert limit is not None
                 tags |= {"computed": limit.step, "advised": limit.advised}
                 duration = min(duration, RUN_STEPS * limit.advised)
             label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
-            how: dict[str, Any] = {"duration": duration, "every": duration / SAMPLES, "label": label}
-            yield Ask(there, lattice, run={"integrator": name}, tags=tags, **how), None
+            times: Any = {"duration": duration, "every": duration / SAMPLES}
+            yield Ask(variant, lattice, run={"integrator": name}, tags=tags, label=label, **times), None
 
 
 def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
@@ -163,22 +162,22 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
             label=f"{name} {step:.3g} s",
         )
 
-    against = ask("midpoint", period / FINE)
+    reference = ask("midpoint", period / FINE)
     for name in INTEGRATORS:
         steps = [period / n for n in DIVISIONS]
-        if lumped.INTEGRATORS[name].explicit and not scene.chains():  # else it is refused
+        if lumped.INTEGRATORS[name].explicit and not scene.chains():  # explicit integrators refuse chains
             limit = lumped.explicit_limit(name, scene, resolve(scene, lattice).springs)
             steps = [share * limit for share in SHARES]
-        yield from ((ask(name, step), against) for step in steps)
+        yield from ((ask(name, step), reference) for step in steps)
 
 
 def scaled(scene: Scene, name: str, factor: float) -> Scene:
-    """Return the scene with its load, thickness, moduli or distance from obstacles times a factor, those of
-    patches and layers too. Raises BadInput where it cannot be."""
+    """Return the scene with its load, thickness, moduli or distance from obstacles times a factor, including
+    patches and layers. Raises BadInput for an impossible value."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # extremes are implausible
         if name == "young":
-            parts = {key: tuple(_stiffer(each, factor) for each in getattr(scene, key)) for key in PARTS}
+            parts = {key: tuple(_stiffer(part, factor) for part in getattr(scene, key)) for key in PARTS}
             return put(scene, "young", factor * scene.material.young).replace(**parts)
         if name == "slenderness":
             patches = [
@@ -187,37 +186,39 @@ def scaled(scene: Scene, name: str, factor: float) -> Scene:
             ]
             return put(scene, "thickness", factor * scene.sheet.thickness).replace(patches=tuple(patches))
         if name == "obstacle":
-            return scene.replace(obstacles=tuple(farther(scene, one, factor) for one in scene.obstacles))
-        acting = {"loads": tuple(load.times(factor) for load in scene.loads)}
-        return scene.replace(gravity=scene.gravity and scene.gravity.times(factor), **acting)
+            obstacles = tuple(farther(scene, obstacle, factor) for obstacle in scene.obstacles)
+            return scene.replace(obstacles=obstacles)
+        loads = tuple(load.times(factor) for load in scene.loads)
+        return scene.replace(gravity=scene.gravity and scene.gravity.times(factor), loads=loads)
 
 
 def _stiffer(part: Patch | Layer, factor: float) -> Patch | Layer:
-    """Return a patch or a layer, its own moduli times a factor."""
-    own = {key: factor * part.own[key] for key in ("young", *MODULI) if key in part.own}
-    return part.replace(**own) if own else part
+    """Return a patch or a layer with its own moduli times a factor."""
+    moduli = {key: factor * part.own[key] for key in ("young", *MODULI) if key in part.own}
+    return part.replace(**moduli) if moduli else part
 
 
-def _row(found: Solved, truth: Solved | None) -> Row:
-    """Return a cell's row: how it ended, and its error where its reference has an answer too."""
-    steps = found.row.get("iterations") or found.row.get("steps")
-    row: Row = {**found.ask.tags, "error": None, "iterations": steps, "seconds": found.run_seconds}
-    row |= {"status": found.status, "message": found.message}
-    if truth is None or not found.stable or not truth.stable:
+def _row(solved: Solved, truth: Solved | None) -> Row:
+    """Return a cell's row, with its error if both the run and its reference have an answer."""
+    steps = solved.row.get("iterations") or solved.row.get("steps")
+    row: Row = {**solved.ask.tags, "error": None, "iterations": steps, "seconds": solved.run_seconds}
+    row |= {"status": solved.status, "message": solved.message}
+    if truth is None or not solved.stable or not truth.stable:
         return row
-    if (found.ask.spec, found.ask.run) == (truth.ask.spec, truth.ask.run):
+    if (solved.ask.spec, solved.ask.run) == (truth.ask.spec, truth.ask.run):
         return row
-    if found.ask.duration is not None:
-        return {**row, "error": _motion_error(found.row, truth.row)}
-    return {**row, "error": error(found.u, truth.u)}
+    if solved.ask.duration is not None:
+        return {**row, "error": _motion_error(solved.row, truth.row)}
+    return {**row, "error": error(solved.u, truth.u)}
 
 
 def _motion_error(row: Mapping[str, Any], truth: Mapping[str, Any]) -> float | None:
-    """Return the largest difference of the probes' displacements over the largest displacement, None at
-    rest."""
-    largest = off = 0.0
-    for name, known in truth["probes"].items():
-        expected = np.transpose([np.interp(row["time"], truth["time"], axis) for axis in np.transpose(known)])
-        off = max(off, float(np.abs(np.array(row["probes"][name]) - expected).max()))
-        largest = max(largest, float(np.abs(known).max()))
-    return off / largest if largest > 0.0 else None
+    """Return the largest difference at the probes over the largest displacement, None if that is 0."""
+    largest = difference = 0.0
+    for name, values in truth["probes"].items():
+        expected = np.transpose(
+            [np.interp(row["time"], truth["time"], axis) for axis in np.transpose(values)]
+        )
+        difference = max(difference, float(np.abs(np.array(row["probes"][name]) - expected).max()))
+        largest = max(largest, float(np.abs(values).max()))
+    return difference / largest if largest > 0.0 else None

@@ -1,4 +1,4 @@
-"""The picture of a scene's stability: a panel for what is varied, a strip of tiles a model."""
+"""The figure of a scene's stability: a panel per varied parameter, a strip of tiles per model."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def compose(stability: Stability, style: FigureStyle) -> Figure:
     }
     panels = {name: rows for name, rows in by_study.items() if rows}
     models = {name: list(dict.fromkeys(map(who, rows)))[::-1] for name, rows in panels.items()}
-    heights = [1.0 + len(of) for of in models.values()]
+    heights = [1.0 + len(names) for names in models.values()]
     with matplotlib.rc_context(maps.MAP_STYLE):
         figure = Figure(figsize=(style.width, 0.8 + 0.24 * sum(heights)), layout="constrained")
         axes = figure.subplots(len(panels), 1, height_ratios=heights, squeeze=False)[:, 0]

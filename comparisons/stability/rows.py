@@ -1,4 +1,4 @@
-"""Rows of a map: a cell, how it ended, how far it is off."""
+"""Rows of a stability map: a cell, the status of its run, its error."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 
 Row = dict[str, Any]
 Cell = dict[str, Any]
-LARGE = 0.05  # an error that has to be explained
-FAULTS = {"failed": "a fault of the program", "lost": "lost"}  # and no verdict on the model
-KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # else factor
+LARGE = 0.05  # limit of the error of a model that holds
+FAULTS = {"failed": "a fault of the program", "lost": "lost"}  # statuses without a verdict on the model
+KEYS = {"grid": "cells", "damping": "damping_ratio", "time-step": "step"}  # other studies: "factor"
 
 
 def verdict(row: Row) -> str:
-    """Return how a cell ended: holds, off by more than `LARGE`, refuses, fails, or by one of `FAULTS`."""
+    """Return the verdict on a cell: holds, off (error above LARGE), refuses, fails, or one of FAULTS."""
     if row["status"] == "converged":
         return "off" if (row["error"] or 0.0) > LARGE else "holds"
     if row["status"] in FAULTS:
@@ -22,7 +22,7 @@ def verdict(row: Row) -> str:
 
 
 def place(row: Row) -> Any:
-    """Where a cell lies on what is varied."""
+    """Return the value of a cell's varied parameter."""
     return row["cell"][KEYS.get(row["study"], "factor")]
 
 
@@ -32,13 +32,13 @@ def who(row: Row) -> str:
 
 
 def broken(rows: Iterable[Row]) -> list[str]:
-    """Return a sentence for every row without an answer."""
+    """Return a sentence for every row that ended by one of FAULTS."""
     lost = (row for row in rows if row["status"] in FAULTS)
     return [f"{r['study']} {r['cell']}: {verdict(r)}: {r['message']}" for r in lost]
 
 
 def percent(error: float | None) -> str:
-    """Return an error as it stands in a map or a text, in percent and without the sign."""
+    """Return an error as text in percent, without the sign %."""
     if error is None:
         return ""
     if error < 5e-5:

@@ -1,4 +1,4 @@
-"""Maps: cells as tiles coloured by how they ended, errors written in them, theory drawn over them."""
+"""Stability maps: cells as tiles, coloured by outcome and labelled with errors, and lines of theory."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from comparisons.stability.rows import FAULTS, LARGE, Row, percent
 from sheetbench.answers.style import GREY, STYLE
 
 MAP_STYLE = {**STYLE, "axes.titlesize": 8, "axes.titleweight": "bold", "axes.titlelocation": "left"}
-# Light enough to write on; distinct in grey and without telling red from green.
+# Colours light enough for text, distinct in grey and for colour-blind readers.
 OUTCOMES = {
     "within 1 %": "#a8d5c2",
     "within 5 %": "#d9ecd2",
@@ -31,7 +31,7 @@ OUTCOMES = {
     (REFUSED := "refused"): "#ffffff",
     **dict.fromkeys(FAULTS.values(), "#000000"),
 }
-HATCHED: Any = {"hatch": "//////", "edgecolor": "#b0b0b0", "lw": 0.4}  # not as where nothing was run
+HATCHED: Any = {"hatch": "//////", "edgecolor": "#b0b0b0", "lw": 0.4}  # unlike a cell without a run
 THEORY: Any = {"color": "#b2182b", "lw": 1.3, "zorder": 5}
 
 
@@ -56,17 +56,15 @@ def tiles(
     text: Callable[[Row], str] = lambda row: percent(row.get("error")),
     scale: tuple[str, str] = ("log", "log"),
 ) -> None:
-    """Draw a tile a row at (x, y), reaching half-way to its neighbours; several rows at one place share it.
+    """Draw a tile per row at (x, y), extended half-way to its neighbours. x, y: keys of the cell, or
+    functions of the row."""
 
-    x, y: keys of the cell, or functions of the row.
-    """
-
-    def at(where: str | Callable[[Row], float], row: Row) -> float:
-        return float(row["cell"][where] if isinstance(where, str) else where(row))
+    def at(coordinate: str | Callable[[Row], float], row: Row) -> float:
+        return float(row["cell"][coordinate] if isinstance(coordinate, str) else coordinate(row))
 
     edges = []
-    for where, kind in ((x, scale[0]), (y, scale[1])):
-        places = np.unique([at(where, row) for row in rows])
+    for coordinate, kind in ((x, scale[0]), (y, scale[1])):
+        places = np.unique([at(coordinate, row) for row in rows])
         on = np.log(places) if kind == "log" else places
         half = 0.5 * np.diff(on)[[0, -1]] if len(on) > 1 else np.array([0.5, 0.5])
         ends = np.concatenate([[on[0] - half[0]], 0.5 * (on[1:] + on[:-1]), [on[-1] + half[1]]])
@@ -75,7 +73,7 @@ def tiles(
         (xs, across), (ys, up) = edges
         i, j = int(np.searchsorted(xs, at(x, row))), int(np.searchsorted(ys, at(y, row)))
         corner, size = (across[i], up[j]), (across[i + 1] - across[i], up[j + 1] - up[j])
-        axis.add_patch(Rectangle(corner, *size, **look(outcome(row))))
+        axis.add_patch(Rectangle(corner, *size, **tile_style(outcome(row))))
         middle = _mid(across, i, scale[0]), _mid(up, j, scale[1])
         axis.text(*middle, text(row), fontsize=5.2, ha="center", va="center")
     axis.set_xscale(scale[0])
@@ -85,10 +83,10 @@ def tiles(
     axis.tick_params(which="both", width=0.5, length=2)
 
 
-def look(ended: str) -> dict[str, Any]:
+def tile_style(outcome: str) -> dict[str, Any]:
     """Return colour and border of a tile."""
-    border = HATCHED if ended == REFUSED else {"edgecolor": "white", "lw": 0.8}
-    return {"facecolor": OUTCOMES[ended], **border}
+    border = HATCHED if outcome == REFUSED else {"edgecolor": "white", "lw": 0.8}
+    return {"facecolor": OUTCOMES[outcome], **border}
 
 
 def _mid(edges: np.ndarray, i: int, scale: str) -> float:
@@ -103,21 +101,21 @@ def strips(
     names: Sequence[str],
     **more: Any,
 ) -> None:
-    """Draw a strip of tiles for each of the names, the first at the bottom; more: as `tiles` has it."""
+    """Draw a strip of tiles per name, the first at the bottom; more: keywords of `tiles`."""
     tiles(axis, rows, x, lambda row: float(names.index(name(row))), scale=("log", "linear"), **more)
     axis.set_yticks(range(len(names)), names)
 
 
 def theory(label: str, **style: Any) -> Line2D:
-    """Return the legend's entry of a line of theory."""
+    """Return a legend entry for a line of theory."""
     return Line2D([], [], label=label, **{**THEORY, "zorder": 1, **style})
 
 
 def legend(figure: Figure, rows: Iterable[Row], *lines: Any) -> None:
-    """Draw the colours that occur in the rows, and lines, below the panels."""
+    """Draw a legend below the panels: the outcomes that occur in the rows, and lines."""
     occurring = set(map(outcome, rows))
     patches = [
-        Patch(**{"edgecolor": GREY, **look(name), "lw": 0.4}, label=name)
+        Patch(**{"edgecolor": GREY, **tile_style(name), "lw": 0.4}, label=name)
         for name in OUTCOMES
         if name in occurring
     ]

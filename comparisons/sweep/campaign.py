@@ -1,12 +1,11 @@
-"""Campaigns: many runs, each carried out once, kept as soon as it is done, resumed after any interruption.
+"""Campaigns: many runs, each carried out once, stored on completion, resumable after any interruption.
 
-A run is a task's name and JSON arguments. What it finds is kept in the folder's `campaign.sqlite` under a
-hash of name, arguments, version and source; repeated by the same code, it is read and not run. Nothing of
-a finished run is ever changed. A run that raises is a row with its status, and so is one that takes its
-process down.
+A run is a task's name and JSON arguments. Its result is stored in the folder's `campaign.sqlite` under a hash
+of name, arguments, version and source; a repeated run with unchanged code is read from the store. Finished
+runs are never changed. A run that raises an error or crashes its process is a row with its status.
 
-Timed runs never share cores with each other or with other runs of the campaign: they go one at a time, on one
-worker of a cluster, after the untimed ones, which go as many at a time as there are workers.
+Timed runs never share cores with other runs of the campaign: they run one at a time, on one worker of a
+cluster, after the untimed runs, which run in parallel on all workers.
 """
 
 from __future__ import annotations
@@ -36,17 +35,15 @@ from sheetbench.errors import BadInput
 from sheetbench.files import only_writer
 from sheetbench.sources import source, version
 
-GOING = "going on"
-WATCHED = 5.0  # s between looks at a pool, whose workers may come and go
+GOING = "running"
+WATCHED = 5.0  # s between checks of a pool, whose workers may come and go
 
 
 @dataclass(frozen=True)
 class Run:
-    """The function that `task` names, as "module:function", called with `arguments`.
-
-    The arguments are plain JSON data, and so is the dictionary that the function returns; its "status" and
-    "message", if any, become those of the run. label: what people read while it runs.
-    """
+    """A call of the function `task`, "module:function", with `arguments`. Arguments and the returned
+    dictionary are plain JSON data; "status" and "message" of the dictionary become the run's. label: text for
+    progress."""
 
     task: str
     arguments: dict[str, Any]
@@ -55,7 +52,7 @@ class Run:
 
     @property
     def key(self) -> str:
-        """The hash under which the run is kept."""
+        """The hash that identifies the run in the store."""
         inputs = {
             "task": self.task,
             "arguments": plain(self.arguments),
@@ -67,11 +64,11 @@ class Run:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a campaign is: runs done (kept from before included) of all, the last one, seconds left.
+    """Progress of a campaign: finished runs (stored ones included) of all, the latest run, remaining time.
 
-    status: of the run that has just ended, or `GOING` where it has just begun. seconds_left: the mean
-    duration of the runs of this session times the runs left, over those that run side by side; None before
-    the first has finished. going: the runs that are under way.
+    status: of the run that has just ended, or `GOING` if it has just started; seconds_left: mean duration of
+    this session's runs times the remaining runs over the parallel ones, unknown before the first has
+    finished; going: labels of the current runs.
     """
 
     done: int
@@ -83,23 +80,23 @@ class Progress:
 
     @property
     def at_once(self) -> bool:
-        """Whether it is told where there is no terminal: of every run that has ended."""
+        """Whether progress is printed without a terminal too: for every finished run."""
         return self.status != GOING
 
     def __str__(self) -> str:
         more = f", and {len(self.going) - 1} more" if len(self.going) > 1 else ""
         parts = [f"{self.label}: {self.status}"] if self.at_once else []
-        parts += [f"going on: {self.going[0]}{more}"] if self.going else []
+        parts += [f"running: {self.going[0]}{more}"] if self.going else []
         parts += [] if self.seconds_left is None else [f"{duration(self.seconds_left)} left"]
-        return f"{self.done}/{self.total} {', '.join(parts)}"
+        return f"{self.done}/{self.total} done; {'; '.join(parts)}"
 
 
 @contextmanager
 def campaign(folder: Path | str | None) -> Iterator[Store]:
-    """The store of a folder's campaigns, open; without a folder one that passes. Raises BadInput where it
-    cannot be, see `Store`, and where another process has it open."""
-    with TemporaryDirectory() as passing:
-        path = Path(passing if folder is None else folder)
+    """Open the store of a folder's campaigns, without a folder a temporary one. Raises BadInput for an
+    unusable store (`Store`), and if another process has it open."""
+    with TemporaryDirectory() as temporary:
+        path = Path(temporary if folder is None else folder)
         path.mkdir(parents=True, exist_ok=True)
         with only_writer(path), closing(Store(path / FILE)) as store:
             store.passing = folder is None
@@ -107,11 +104,9 @@ def campaign(folder: Path | str | None) -> Iterator[Store]:
 
 
 class CampaignKeywords(TypedDict, total=False):
-    """How runs are carried out, as every function that carries out many takes it.
-
-    workers: of untimed runs side by side, at most (`executors.width`); pool: makes their processes, or a
-    cluster's; retry: run again what failed or was lost before; progress: called as every run begins and ends.
-    """
+    """Keywords of functions that carry out many runs. workers: largest number of parallel untimed runs
+    (`executors.width`); pool: makes their processes, or is a cluster; retry: repeat failed and lost runs;
+    progress: called at the start and end of every run."""
 
     workers: int | None
     pool: Pool
@@ -128,8 +123,8 @@ def carry_out(
     retry: bool = False,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> list[Finished]:
-    """Return every run's outcome, in the order of `runs`; those that the store has are not run again (see
-    `CampaignKeywords`). Raises BadInput where a cluster is lost."""
+    """Return every run's outcome, in the order of `runs`; stored runs are skipped. Keywords are explained in
+    `CampaignKeywords`. Raises BadInput if a cluster is lost."""
     queue = list(runs)
     for run in queue if retry else ():
         store.forget(run.key)
@@ -139,24 +134,25 @@ def carry_out(
         waiting = deque(run for run in missing.values() if run.timed is timed)
         if waiting:
             with single_threaded():
-                one = pool.one_worker if timed and isinstance(pool, Cluster) else pool
-                session.carry_out(waiting, one, 1 if timed else workers)
+                workers_of = pool.one_worker if timed and isinstance(pool, Cluster) else pool
+                session.carry_out(waiting, workers_of, 1 if timed else workers)
     stored = [store.get(run.key) for run in queue]
     return [outcome for outcome in stored if outcome is not None]
 
 
 class _Session:
-    """The runs of one call that are still to be done."""
+    """The missing runs of one call of `carry_out`."""
 
     def __init__(self, store: Store, total: int, missing: int, progress: Callable[[Progress], None]) -> None:
         self.store, self.total, self.missing, self.progress = store, total, missing, progress
         self.seconds: list[float] = []
-        self.width = 1  # runs side by side
-        self.going: dict[str, str] = {}  # labels of the runs under way, by their keys
+        self.width = 1  # parallel runs
+        self.going: dict[str, str] = {}  # labels of the current runs, by key
 
     def carry_out(self, waiting: deque[Run], pool: Pool, workers: int | None) -> None:
-        """All waiting runs, `workers` at a time. Those under way when a process died go again, one at a time:
-        the one that dies alone is the one to blame. Raises BadInput where the cluster is lost."""
+        """Carry out all waiting runs, `workers` at a time. The runs that were current when a process crashed
+        are repeated one at a time: a run that crashes its process alone is stored as lost. Raises BadInput if
+        the cluster is lost."""
         try:
             suspects = self._stream(waiting, pool, workers)
             while waiting or suspects:
@@ -164,28 +160,28 @@ class _Session:
                     if self._stream(deque([run]), pool, 1):
                         self._keep(run, _lost(run))
                 suspects = self._stream(waiting, pool, workers)
-        except ClusterLost as lost:
+        except ClusterLost as error:
             done = f"{self.total - self.missing + len(self.seconds)} of {self.total} runs are"
-            kept = f"{done} done; with --out DIR they are" if self.store.passing else done
-            raise BadInput(f"{lost}; {kept} kept, and the same command goes on") from None
+            stored = f"{done} done; with --out DIR they are" if self.store.passing else done
+            raise BadInput(f"{error}; {stored} kept: run the same command again to resume") from None
 
     def _stream(self, waiting: deque[Run], pool: Pool, workers: int | None) -> list[Run]:
-        """Runs until none waits or the pool is gone; the runs under way if the pool broke."""
-        under_way: dict[Future[Finished], Run] = {}
+        """Carry out waiting runs until none is left; if the pool breaks, return its current runs."""
+        current: dict[Future[Finished], Run] = {}
         self.going.clear()
         self.width = width(pool, workers)
         with _ended(pool(self.width)) as executor:
-            while waiting or under_way:
+            while waiting or current:
                 self.width = width(pool, workers)
-                while waiting and len(under_way) < self.width:
+                while waiting and len(current) < self.width:
                     run = waiting.popleft()
-                    under_way[_submit(executor, run)] = run
+                    current[_submit(executor, run)] = run
                     self.going[run.key] = run.label
-                    self._tell(run, GOING)
-                done, _ = wait(under_way, WATCHED, FIRST_COMPLETED)
+                    self._report(run, GOING)
+                done, _ = wait(current, WATCHED, FIRST_COMPLETED)
                 broken = []
                 for future in done:
-                    run = under_way.pop(future)
+                    run = current.pop(future)
                     error = None if future.cancelled() else future.exception()
                     if future.cancelled() or isinstance(error, CancelledError):
                         raise ClusterLost("the connection to the cluster was lost")
@@ -194,16 +190,16 @@ class _Session:
                     else:
                         self._keep(run, _lost(run, error) if error else future.result())
                 if broken:
-                    return [*broken, *under_way.values()]
+                    return [*broken, *current.values()]
         return []
 
     def _keep(self, run: Run, outcome: Finished) -> None:
         self.store.add(run.task, run.arguments, outcome)
         self.seconds.append(outcome.seconds)
         self.going.pop(run.key, None)
-        self._tell(run, outcome.status)
+        self._report(run, outcome.status)
 
-    def _tell(self, run: Run, status: str) -> None:
+    def _report(self, run: Run, status: str) -> None:
         left = self.missing - len(self.seconds)
         seconds = sum(self.seconds) / len(self.seconds) * left / self.width if self.seconds else None
         going = tuple(self.going.values())
@@ -212,7 +208,7 @@ class _Session:
 
 @contextmanager
 def _ended(executor: Executor) -> Iterator[Executor]:
-    """The executor, which is waited for at the end, but not after a fault or Ctrl-C."""
+    """Wait for the executor at the end of the block, except after an error or Ctrl-C."""
     try:
         yield executor
     except BaseException:
@@ -231,14 +227,14 @@ def _submit(executor: Executor, run: Run) -> Future[Finished]:
 
 
 def function(task: str) -> Callable[..., dict[str, Any]]:
-    """Return what a task is carried out by."""
+    """Return the function of a task."""
     module, _, name = task.partition(":")
-    carried_out: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
-    return carried_out
+    out: Callable[..., dict[str, Any]] = getattr(import_module(module), name)
+    return out
 
 
 def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
-    """Carry out one run here and now; whatever it raises is its outcome."""
+    """Carry out one run in this process; an exception becomes its outcome."""
     started, clock = _now(), perf_counter()
     try:
         if Run(task, arguments).key != key:
@@ -249,7 +245,7 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
         status, message = str(row.get("status", "done")), str(row.get("message", ""))
     except BadInput as error:
         row, status, message = {}, "refused", str(error)
-    except Exception as error:  # a fault is a row of the study, not the end of it
+    except Exception as error:  # a fault becomes a row; the campaign goes on
         if interrupts.is_behind(error):
             raise KeyboardInterrupt from error
         row = {"traceback": traceback.format_exc()}
@@ -261,7 +257,7 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
 
 def _lost(run: Run, error: BaseException | None = None) -> Finished:
     reason = "" if error is None else f": {error}"
-    return Finished(run.key, "lost", {}, f"the process that ran it died{reason}", _now(), _now(), 0.0)
+    return Finished(run.key, "lost", {}, f"its worker process crashed{reason}", _now(), _now(), 0.0)
 
 
 def _now() -> str:

@@ -1,4 +1,4 @@
-"""Further columns of the table of solves, each computed beside the answer where it is wanted."""
+"""Optional columns of the table of solves, computed from the answer on request."""
 
 from __future__ import annotations
 
@@ -12,5 +12,5 @@ from sheetbench.scenes import Scene
 
 COLUMNS: dict[str, Callable[[Scene, Solution], Any]] = {
     "field": lambda scene, answer: answer.displacement(field_points(scene)),
-    "model_error": lambda scene, answer: left.value if (left := model_error(scene, answer)) else None,
+    "model_error": lambda scene, answer: bound.value if (bound := model_error(scene, answer)) else None,
 }

@@ -1,7 +1,7 @@
 """Executors of runs: processes of this machine, or a dask cluster.
 
-A worker process starts fresh (spawn), keeps to one thread (BLAS, OpenMP, numba and rslab alike), so that as
-many workers as cores do not fight for them, and ends when the process that started it does, killed or not.
+A worker process starts fresh (spawn), uses one thread (BLAS, OpenMP, numba and rslab), so that workers do not
+compete for cores, and ends with its parent process, even if that is killed.
 
 Use only a scheduler you trust: it can run arbitrary code on both machines.
 """
@@ -26,80 +26,80 @@ from sheetbench.errors import BadInput
 from sheetbench.heap import keep_freed_memory
 from sheetbench.process import ONE_THREAD
 
-PATIENCE = 10.0  # s that a scheduler may take to answer, and to have a worker
-Pool = Callable[[int], Executor]  # by how many runs it is to take at a time
+PATIENCE = 10.0  # s, waiting time for a scheduler's answer and for its first worker
+Pool = Callable[[int], Executor]  # makes an executor of a number of parallel runs
 
 
 class Processes(ProcessPoolExecutor):
-    """Single-threaded processes of this machine, which do not hear Ctrl-C: it is for who started them."""
+    """Single-threaded workers of this machine that ignore Ctrl-C; the parent process handles it."""
 
     def __init__(self, workers: int) -> None:
-        theirs, self._ours = Pipe(duplex=False)
+        child_end, self._parent_end = Pipe(duplex=False)
         start = multiprocessing.get_context("spawn")
-        super().__init__(workers, mp_context=start, initializer=_join, initargs=(theirs,))
+        super().__init__(workers, mp_context=start, initializer=_join, initargs=(child_end,))
 
     def submit(self, *arguments: Any, **keywords: Any) -> Future[Any]:
-        """As usual; a process that this starts inherits that the interrupt is held back."""
-        with _interrupt_held_back():
+        """Submit a call; a process started for it inherits the blocked interrupt."""
+        with _interrupt_blocked():
             return super().submit(*arguments, **keywords)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Wait for the processes; without `wait` end them, whatever they are at."""
+        """Wait for the processes; without `wait` end them at once."""
         if not wait:
-            self._ours.close()
+            self._parent_end.close()
         super().shutdown(cancel_futures=cancel_futures or not wait)
 
 
 @contextmanager
-def _interrupt_held_back() -> Iterator[None]:
-    """A block in which Ctrl-C waits, in this thread and in the processes that it starts."""
+def _interrupt_blocked() -> Iterator[None]:
+    """Block Ctrl-C for a block in this thread, and in processes that the block starts."""
     if not hasattr(signal, "pthread_sigmask"):  # not on Windows
         yield
         return
-    ensure_running()  # of multiprocessing's own process, whose start would let the interrupt through
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    ensure_running()  # multiprocessing's resource tracker: its start would unblock the interrupt
+    previous = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, previous)
 
 
 @contextmanager
 def single_threaded() -> Iterator[None]:
-    """The environment that worker processes are to start with."""
-    before = {name: os.environ[name] for name in ONE_THREAD if name in os.environ}
+    """Set the environment of worker processes to one thread for a block."""
+    previous = {name: os.environ[name] for name in ONE_THREAD if name in os.environ}
     os.environ.update(ONE_THREAD)
     try:
         yield
     finally:
         for name in ONE_THREAD:
             del os.environ[name]
-        os.environ.update(before)
+        os.environ.update(previous)
 
 
 class ClusterLost(Exception):
-    """A cluster without the workers that runs are to go to."""
+    """A cluster without a worker for the remaining runs."""
 
 
 class Cluster:
-    """The workers of a dask cluster as a pool; with an address that worker alone."""
+    """The workers of a dask cluster as a pool, or the one worker of an address."""
 
     def __init__(self, client: Any, worker: str | None = None) -> None:
         self._client, self._worker = client, worker
 
     def __call__(self, workers: int) -> Executor:
-        """Return its executor."""
-        chosen = {"workers": [self._worker]} if self._worker else {}
-        return self._client.get_executor(pure=False, **chosen)  # type: ignore[no-any-return]
+        """Return the cluster's executor."""
+        selection = {"workers": [self._worker]} if self._worker else {}
+        return self._client.get_executor(pure=False, **selection)  # type: ignore[no-any-return]
 
     @cached_property
     def one_worker(self) -> Cluster:
-        """Return one worker, always the same, for timed runs."""
+        """The worker for all timed runs."""
         return Cluster(self._client, min(self._threads()))
 
     def width(self) -> int:
-        """Return how many runs go side by side now: its threads, one of a single worker. Raises ClusterLost
-        where no worker, or not that one, is there within `PATIENCE`."""
+        """Return the present number of parallel runs: the cluster's threads, 1 for one worker. Raises
+        ClusterLost if no worker, or not this one, appears within `PATIENCE`."""
         threads = self._threads()
         if self._worker is None:
             return sum(threads.values())
@@ -118,8 +118,8 @@ class Cluster:
 
 
 def width(pool: Pool, workers: int | None) -> int:
-    """Return how many runs go side by side now: `workers` at most, without it as many as this machine has
-    processors or the cluster threads. Raises ClusterLost."""
+    """Return the present number of parallel runs: at most `workers`, by default the machine's processors or
+    the cluster's threads. Raises ClusterLost."""
     if isinstance(pool, Cluster):
         return min(pool.width(), workers or sys.maxsize)
     return workers or os.cpu_count() or 1
@@ -127,9 +127,11 @@ def width(pool: Pool, workers: int | None) -> int:
 
 @contextmanager
 def pool_of(scheduler: str | None) -> Iterator[Pool]:
-    """Processes of this machine, or the dask cluster at an address like tcp://host:8786, which gives an
-    untimed run whose worker dies to another. Raises BadInput without dask.distributed, and where no scheduler
-    answers or has a worker within `PATIENCE`."""
+    """Return processes of this machine, or the dask cluster at an address like tcp://host:8786.
+
+    A cluster repeats an untimed run of a crashed worker on another one. Raises BadInput without
+    dask.distributed, and if no scheduler with a worker answers within `PATIENCE`.
+    """
     if scheduler is None:
         yield Processes
         return
@@ -137,7 +139,7 @@ def pool_of(scheduler: str | None) -> Iterator[Pool]:
         from distributed import Client
     except ImportError:
         raise BadInput("--scheduler: needs dask.distributed; pip install 'sheetbench[cluster]'") from None
-    for name in ("distributed", "distributed.client"):  # its own warnings are repeated here
+    for name in ("distributed", "distributed.client"):  # its warnings would repeat our messages
         logging.getLogger(name).setLevel(logging.CRITICAL)
     with ExitStack() as stack:
         try:

@@ -1,13 +1,11 @@
-"""The folder that a verb's files go to, and its manifest: what is there, of which scene, made with what.
+"""The folder of a verb's files, and its manifest: a record of files, scene, options and versions.
 
-A folder holds answers about one scene. Files of another scene, of another verb that is about no scene or
-sheet in common, or of the same verb with options that leave other files, would stand side by side
-with new ones as if they belonged together: such a folder is refused, and with `overwrite` cleared first, of
-the files that its manifest lists and of nothing else.
+A folder holds answers about one scene. A folder with files of another scene, of a verb with another subject,
+or of the verb with options that make other files, is refused, because unrelated files would be mixed. The
+option `overwrite` first removes the files listed in its manifest, and no others.
 
-The manifest says what the latest run was made with, and under "runs", for every verb, its options and
-which files are its own. It is written before the first file is whole, so that what an interrupted run leaves
-is known too.
+The manifest has the record of the latest run and, under "runs", the options and files of every verb. It is
+written before the first file, so that files of an interrupted run are listed too.
 """
 
 from __future__ import annotations
@@ -23,15 +21,15 @@ from sheetbench.answers.report import Report, Write
 from sheetbench.errors import BadInput
 
 MANIFEST = "manifest.json"
-ABOUT = ("scene", "sheet", "material")  # what a run is about
+ABOUT = ("scene", "sheet", "material")  # keys of a run's subject
 
 
 class Folder:
     """A folder for the files of one run of a verb.
 
-    about: what the run is about, as {"scene": …}, the same for all runs in a folder. variant: options that
-    decide which files there are, the same for all runs of a verb. Raises BadInput for a folder that cannot
-    be made, or that holds something else, unless `overwrite`, naming the option.
+    about: subject of the run, as {"scene": …}, equal for all runs in a folder; variant: options that
+    determine the files, equal for all runs of a verb. Raises BadInput, naming the option, for a folder that
+    cannot be made, or that holds other files unless `overwrite` is given.
     """
 
     def __init__(
@@ -52,7 +50,7 @@ class Folder:
         self._record = record(list(command))
         self._about, self._variant = plain(dict(about or {})), plain(dict(variant or {}))
         self._runs = _runs(self.path, option)
-        mixed = {name: off for name, run in self._runs.items() if (off := self._differences(name, run))}
+        mixed = {name: keys for name, run in self._runs.items() if (keys := self._differences(name, run))}
         if mixed and not overwrite:
             name, difference = next(iter(mixed.items()))
             raise BadInput(
@@ -62,15 +60,13 @@ class Folder:
         self._stale = [name for name in {**mixed, verb: ""} if name in self._runs] if overwrite else []
 
     def write(self, name: str, write: Write) -> None:
-        """Write a file of the run; its name is in the manifest first."""
+        """Write a file of the run, after an entry in the manifest."""
         self.reserve(name)
         write(self.path / name)
 
     def reserve(self, name: str) -> Path:
-        """Return the path of a file, or of a folder if its name ends in "/", and list it as this run's.
-
-        Raises BadInput where one that no run wrote stands there, unless it may be overwritten.
-        """
+        """List a file, or a folder if its name ends in "/", as this run's, and return its path. Raises
+        BadInput for an existing file that no run wrote, unless it may be overwritten."""
         self._clear()
         if name not in self.written:
             known = any(name in run["files"] for run in self._runs.values())
@@ -81,7 +77,7 @@ class Folder:
         return self.path / name
 
     def report(self, report: Report, progress: Callable[[str], None] = lambda text: None) -> list[str]:
-        """Write what of a report is not there yet; sentences that say why a picture is missing."""
+        """Write the missing files of a report; return a sentence with the reason for each missing figure."""
         for name, write in report.files(made_with()).items():
             if name not in self.written:
                 self.write(name, write)
@@ -97,22 +93,21 @@ class Folder:
         return missing
 
     def _clear(self) -> None:
-        """Remove the files of runs that this one takes the place of, once there is something to put there."""
+        """Remove the files of runs that this run replaces; called when it has its first file."""
         for verb in self._stale:
             for name in self._runs.pop(verb)["files"]:
                 _remove(self.path, name)
         self._stale = []
 
     def note(self, settings: Mapping[str, Any] | None = None, words: Mapping[str, Any] | None = None) -> None:
-        """Write the manifest; with what the run was made with, and its words, once it has left all its
-        files."""
+        """Write the manifest; settings, words: of the run, once all its files are written."""
         self._clear()
-        of_others = {
+        others = {
             verb: {**run, "files": [name for name in run["files"] if name not in self.written]}
             for verb, run in self._runs.items()
         }
-        earlier = of_others.pop(self._verb, {"files": []})["files"]
-        mine = {
+        earlier = others.pop(self._verb, {"files": []})["files"]
+        this_run = {
             "command": self._record["command"],
             "date": self._record["date"],
             "finished": settings is not None,
@@ -122,25 +117,25 @@ class Folder:
             **({} if words is None else {"words": words, "settings": settings}),
         }
         made_with_settings = {} if settings is None else {"settings": settings}
-        whole = {**self._record, **made_with_settings, **self._about, "runs": {**of_others, self._verb: mine}}
-        write_text(self.path / MANIFEST, to_json(whole))
+        runs = {**others, self._verb: this_run}
+        manifest = {**self._record, **made_with_settings, **self._about, "runs": runs}
+        write_text(self.path / MANIFEST, to_json(manifest))
 
     def _differences(self, verb: str, run: Mapping[str, Any]) -> str:
-        """Return by what the scene or options of a run that left files here are others than this run's."""
-        there, here = ({**of.get("scene", {}), **of} for of in (run, self._about))
-        shared = [key for key in ABOUT if key in there and key in here]
+        """Return the names of differences in subject or options between an earlier run and this one."""
+        earlier, present = ({**about.get("scene", {}), **about} for about in (run, self._about))
+        shared = [key for key in ABOUT if key in earlier and key in present]
         if not shared and verb != self._verb:
             return "question"
-        pairs = {key: (there[key], here[key]) for key in shared}
+        pairs = {key: (earlier[key], present[key]) for key in shared}
         if verb == self._verb:
             options = {**run["asked"], **self._variant}
             pairs |= {name: (run["asked"].get(name), self._variant.get(name)) for name in options}
-        return ", ".join(name for name, (theirs, ours) in pairs.items() if theirs != ours)
+        return ", ".join(name for name, (old, new) in pairs.items() if old != new)
 
 
 def _runs(path: Path, option: str) -> dict[str, Any]:
-    """Return what the manifest of a folder lists, by verb. Raises BadInput for a file that is none of
-    ours."""
+    """Return the runs in the manifest of a folder, by verb. Raises BadInput for another kind of file."""
     try:
         manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
         return {verb: {"files": [], "asked": {}, **run} for verb, run in manifest["runs"].items()}
@@ -151,24 +146,24 @@ def _runs(path: Path, option: str) -> dict[str, Any]:
 
 
 def _remove(path: Path, name: str) -> None:
-    """Remove a file that the manifest lists, and the folders that are empty without it; never outside."""
-    place = path / name
-    if not place.parent.resolve().is_relative_to(path.resolve()):
+    """Remove a listed file and folders left empty by it; nothing outside `path` is removed."""
+    target = path / name
+    if not target.parent.resolve().is_relative_to(path.resolve()):
         return
-    if name.endswith("/") and _own(place):
-        for run in filter(_own, place.iterdir()):  # one of several that stream there
-            _remove(place, f"{run.name}/")
-        for file in place.iterdir():
-            if not _own(file):
+    if name.endswith("/") and _is_folder(target):
+        for run in filter(_is_folder, target.iterdir()):  # one of several runs that stream there
+            _remove(target, f"{run.name}/")
+        for file in target.iterdir():
+            if not _is_folder(file):
                 file.unlink()
-    elif not place.is_dir():
-        place.unlink(missing_ok=True)
-    for emptied in [place, *place.parents]:
-        if emptied == path or (emptied.is_dir() and any(emptied.iterdir())):
+    elif not target.is_dir():
+        target.unlink(missing_ok=True)
+    for parent in [target, *target.parents]:
+        if parent == path or (parent.is_dir() and any(parent.iterdir())):
             break
-        if emptied.is_dir():
-            emptied.rmdir()
+        if parent.is_dir():
+            parent.rmdir()
 
 
-def _own(place: Path) -> bool:
-    return place.is_dir() and not place.is_symlink()
+def _is_folder(path: Path) -> bool:
+    return path.is_dir() and not path.is_symlink()

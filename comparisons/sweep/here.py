@@ -1,4 +1,4 @@
-"""Rows solved in this process, whose whole answers are kept; nothing is written."""
+"""Rows of the table of solves computed in this process, with their answers in memory."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from sheetbench.answers.history import History
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene
 
-QUICK = 0.2  # s, up to which solves are repeated
+QUICK = 0.2  # s: longer solves are not repeated
 
 
 @dataclass(frozen=True, kw_only=True)
 class SolvedHere(Solved):
-    """A row with the answer that it is of."""
+    """A row with its answer."""
 
     answer: Solution
 
@@ -44,9 +44,10 @@ class SolvedHere(Solved):
         return median(self.samples)
 
 
-def here(model: Resolved[Any], name: str = "", repeats: int = 1) -> SolvedHere:
-    """Return the row of a model; name: what to call it instead of its own; repeats: of a quick solve."""
-    answer = solve(model, name)
+def here(model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = None) -> SolvedHere:
+    """Solve a model and return its row; name: in place of its own; repeats: of a quick solve; near: a shape
+    to start from."""
+    answer = solve(model, name, near)
     samples = [answer.solve_seconds]
     with running(progress=silent):
         while len(samples) < repeats and answer.solve_seconds < QUICK:
@@ -58,12 +59,11 @@ def here(model: Resolved[Any], name: str = "", repeats: int = 1) -> SolvedHere:
 
 
 def moved_here(scene: Scene, spec: Spec, history: History) -> Solved:
-    """Return the row of a motion; nothing in it of one that has not reached its end."""
+    """Return the row of a motion; the row of an incomplete motion has no values."""
     ask, row = Ask(scene, spec, duration=float(history.time[-1])), {"probes": history.probes}
     return Solved(ask, str(history.status), history.message, row if history.succeeded else {})
 
 
 def with_room(scene: Scene, lattice: Lattice) -> Solution | None:
-    """Return the answer of a lattice that is finer than the one requested, None where it takes too much
-    memory."""
+    """Return the answer of a finer lattice, None if it needs too much memory."""
     return solve(resolve(scene, lattice), "lumped on a finer grid") if has_room(scene, lattice) else None

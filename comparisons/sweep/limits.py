@@ -1,12 +1,12 @@
-"""A model's limit on a scene with its error bar, and whether two models can be distinguished.
+"""A model's converged limit on a scene with its error bar, and pairs of models that can be distinguished.
 
-With f the Richardson limit at the probes of a model's answers on meshes of its own and U the bar of its grid
-convergence index (`fem_reference.uncertainty`), two models a and b are distinguishable where at some probe
+Let f be the Richardson limit at the probes of a model's answers on its own meshes, and U the error bar by the
+grid convergence index (`fem_reference.uncertainty`). Two models a and b are distinguishable if at some probe
 
     |f_a − f_b| > |U_a| + |U_b|
 
-and more than `DIGITS` of the largest displacement, which is what programs print and where iterations end.
-Models that are not distinguishable may be equal or not: finer meshes would decide.
+and the difference exceeds `DIGITS` of the largest displacement, the precision of printed results and of
+iterations. Models that are not distinguishable may be equal or not: finer meshes would decide.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ DIGITS = 1e-5  # of the largest displacement
 def limit(
     rows: Iterable[Solved], size: Callable[[Solved], float] = lambda row: row.size
 ) -> Uncertainty | None:
-    """Return limit and bar of a model's finest answers, three of them if there are, None below two.
+    """Return limit and error bar of a model's two or three finest answers, None for fewer.
 
-    size: of a row's cells, or of its steps. Quadratic elements miss some of the layer along edges; of others
-    an order of 2 at most counts; in motion the layer counts for nothing.
+    size: cell size, or step, of a row. The error of quadratic elements in the layer along edges is included
+    at rest and ignored in motion; the observed order of other elements is capped at 2.
     """
     from fem_reference.edge_layer import missed_by
     from fem_reference.uncertainty import SECOND_ORDER, estimate, family_of
@@ -52,23 +52,28 @@ def limit(
 
 
 def motion_bar(meshes: Sequence[Solved], longer: Solved) -> dict[str, float | None]:
-    """Return what "mesh" and "step" leave uncertain of a motion, shares of its largest displacement, None
-    where runs did not end; meshes: the finest first; longer: its run in steps twice as long, which are of
-    second order."""
-    by = {"mesh": limit(meshes), "step": limit([meshes[0], longer], size=lambda row: 1.0 + (row is longer))}
-    known = meshes[0].usable
-    return {name: found.error if known and found is not None else None for name, found in by.items()}
+    """Return the error bars by "mesh" and "step" of a motion, fractions of its largest displacement, None for
+    failed runs.
+
+    meshes: runs, the finest mesh first; longer: the finest mesh with steps twice as long, of second order.
+    """
+    limits = {
+        "mesh": limit(meshes),
+        "step": limit([meshes[0], longer], size=lambda row: 1.0 + (row is longer)),
+    }
+    usable = meshes[0].usable
+    return {name: bar.error if usable and bar is not None else None for name, bar in limits.items()}
 
 
 def in_all(bars: Mapping[str, float | None]) -> float | None:
-    """Return the parts of a bar together, None where one of them is not known."""
+    """Return the sum of a bar's parts, None if one of them is unknown."""
     known = [bar for bar in bars.values() if bar is not None]
     return sum(known) if bars and len(known) == len(bars) else None
 
 
 @dataclass(frozen=True)
 class Limit:
-    """A model of a scene on its meshes, coarsest first, and the bar of its finest answers."""
+    """A model's rows on its meshes of a scene, coarsest first, and the error bar of the finest answers."""
 
     scene: Scene
     name: str
@@ -82,36 +87,35 @@ class Limit:
 
     @property
     def finest(self) -> Solved:
-        """The row of the finest mesh that has an answer, else the last."""
+        """The row of the finest mesh with an answer, by default the last row."""
         return min((row for row in self.rows if row.usable), key=lambda row: row.size, default=self.rows[-1])
 
     @property
     def refused(self) -> bool:
-        """Whether the model does not take the scene."""
+        """Whether the model refuses the scene."""
         return all(row.status == Status.REFUSED for row in self.rows)
 
     @property
     def failures(self) -> list[str]:
-        """What went wrong on a mesh, a clause each; refusals are no failures."""
+        """One clause per failed mesh; refusals are not failures."""
         return [row.ending for row in self.rows if not row.usable and row.status != Status.REFUSED]
 
     @property
     def unsound(self) -> list[str]:
-        """The answers that are compared and no stable, physical equilibria, a clause each."""
+        """One clause per compared answer that is not a stable, physical equilibrium."""
         return [row.ending for row in self.rows if row.usable and not row.stable]
 
     @property
     def meshes(self) -> str:
-        """The meshes that have an answer, in words: masses or elements along the shorter side."""
-        along = (min(row.counts) + row.ask.spec.MASSES for row in self.rows if row.usable)
-        return ", ".join(map(str, along))
+        """Masses or elements along the shorter side of the meshes with an answer, as text."""
+        counts = (min(row.counts) + row.ask.spec.MASSES for row in self.rows if row.usable)
+        return ", ".join(map(str, counts))
 
 
 @dataclass(frozen=True)
 class Pair:
-    """How far b is from a on a scene: the largest component of their difference, as a fraction of a's largest
-    displacement; bars: both bars of that component, likewise; distinguishable_at: where
-    they differ by more."""
+    """Difference of models a and b on a scene: its largest component over a's largest displacement; bars: sum
+    of both error bars of this component, relative too; distinguishable_at: probes that differ by more."""
 
     scene: str
     a: Annotated[str, Column("model")]
@@ -122,22 +126,21 @@ class Pair:
 
 
 def pairs(limits: Iterable[Limit]) -> list[Pair]:
-    """Return every two models of a scene that have bars, beside each other."""
-    found = [pair(a, b) for a, b in combinations(limits, 2)]
-    return [one for one in found if one is not None]
+    """Return the pairs of a scene's models that both have error bars."""
+    return [p for a, b in combinations(limits, 2) if (p := pair(a, b)) is not None]
 
 
 def pair(a: Limit, b: Limit) -> Pair | None:
-    """Return two models of a scene beside each other, None where one has no bar or nothing moves."""
+    """Return the difference of two models of a scene, None without bars or displacement."""
     if a.uncertainty is None or b.uncertainty is None:
         return None
     size = float(np.max(np.abs(a.uncertainty.extrapolated)))
     if not size > 0.0:
         return None
-    off = b.uncertainty.extrapolated - a.uncertainty.extrapolated
-    both = [np.linalg.norm(of.bar, axis=1) for of in (a.uncertainty, b.uncertainty)]
-    differ = np.linalg.norm(off, axis=1) > np.maximum(both[0] + both[1], DIGITS * size)
-    at = np.unravel_index(np.argmax(np.abs(off)), off.shape)
-    bars = a.uncertainty.bar[at] + b.uncertainty.bar[at]
+    difference = b.uncertainty.extrapolated - a.uncertainty.extrapolated
+    total = np.linalg.norm(a.uncertainty.bar, axis=1) + np.linalg.norm(b.uncertainty.bar, axis=1)
+    differ = np.linalg.norm(difference, axis=1) > np.maximum(total, DIGITS * size)
+    at = np.unravel_index(np.argmax(np.abs(difference)), difference.shape)
+    bars = float(a.uncertainty.bar[at] + b.uncertainty.bar[at]) / size
     names = tuple(name for name, differs in zip(a.scene.probes, differ, strict=True) if differs)
-    return Pair(a.scene.name, a.name, b.name, float(np.abs(off[at])) / size, float(bars) / size, names)
+    return Pair(a.scene.name, a.name, b.name, float(np.abs(difference[at])) / size, bars, names)

@@ -16,7 +16,7 @@ from sheetbench.sources import source, version
 
 
 def record(command: list[str]) -> dict[str, Any]:
-    """Return the record to keep beside a result, ready for JSON: command, date, versions, machine."""
+    """Return the record of a result as JSON data: command, date, versions, machine."""
     return {
         "command": command,
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -28,17 +28,17 @@ def record(command: list[str]) -> dict[str, Any]:
 
 
 def made_with() -> str:
-    """Version, Python, processor and date in a line, for the foot of a page."""
-    made, today = machine(), datetime.now(UTC).date().isoformat()
+    """Return version, Python, processor and date in a line, for the foot of a page."""
+    here, today = machine(), datetime.now(UTC).date().isoformat()
     return (
-        f"sheetbench {version()}, Python {made['python']}, {made['processor']}, "
-        f"{made['cpu_count']} processors, {today}."
+        f"sheetbench {version()}, Python {here['python']}, {here['processor']}, "
+        f"{here['cpu_count']} processors, {today}."
     )
 
 
 @cache
 def versions() -> dict[str, str]:
-    """Versions of every package that sheetbench is declared to use, optional ones where installed."""
+    """Return the versions of the packages that sheetbench declares, as far as installed."""
     names = sorted(
         {re.split(r"[^\w.-]", line, maxsplit=1)[0] for line in metadata.requires("sheetbench") or []}
     )
@@ -50,7 +50,7 @@ def versions() -> dict[str, str]:
 
 
 def machine() -> dict[str, Any]:
-    """Python, operating system, processor and processor count; nothing that names the machine."""
+    """Return Python, operating system, processor and processor count, without a name of the machine."""
     return {
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.release()}",
@@ -61,9 +61,9 @@ def machine() -> dict[str, Any]:
 
 
 def processor() -> str:
-    """Return the processor's model, as far as the system tells."""
+    """Return the processor's model, as far as the system reports it."""
     text = ""
     with suppress(OSError):
         text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    named = re.search(r"^model name\s*:\s*(.+)$", text, re.MULTILINE)
-    return named.group(1) if named else platform.processor()
+    match = re.search(r"^model name\s*:\s*(.+)$", text, re.MULTILINE)
+    return match.group(1) if match else platform.processor()

@@ -1,7 +1,7 @@
-"""By how much a process grows while it solves.
+"""Growth of a process in memory during a solve.
 
-How far its resident set rises above what it was with all code loaded (Linux; elsewhere the rise of the
-largest resident set so far).
+On Linux, the growth is the largest resident set minus its size before the solve, with all code loaded;
+elsewhere it is the growth of the largest resident set so far.
 """
 
 from __future__ import annotations
@@ -20,22 +20,20 @@ Result = TypeVar("Result")
 
 
 def with_peak_memory(solve: Callable[[], Result]) -> tuple[Result, int]:
-    """Return what `solve` returns, and by how many bytes the process grew meanwhile."""
+    """Return the result of `solve`, and the growth of the process during the call [bytes]."""
     gc.collect()
-    with suppress(OSError, AttributeError):  # glibc: free pages go back, so that their reuse counts as growth
+    with suppress(OSError, AttributeError):  # glibc: release free pages, so that their reuse counts as growth
         ctypes.CDLL("libc.so.6").malloc_trim(0)
-    with suppress(OSError):  # Linux: the largest set restarts from the present one
+    with suppress(OSError):  # Linux: reset the largest set to the present one
         Path("/proc/self/clear_refs").write_text("5")
-    before = _largest_resident_set()
+    start = _largest_resident_set()
     solution = solve()
-    return solution, _largest_resident_set() - before
+    return solution, _largest_resident_set() - start
 
 
 def _largest_resident_set() -> int:
-    """Return the size of the largest resident set [bytes].
-
-    Of this program alone where Linux tells it: `getrusage` counts the process that started it too.
-    """
+    """Return the size of the largest resident set [bytes]; Linux reports it for this program alone, while
+    `getrusage` includes the process that started it."""
     with suppress(OSError):
         line = re.search(r"^VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text(), re.MULTILINE)
         if line is not None:

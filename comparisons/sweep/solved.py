@@ -1,8 +1,7 @@
-"""The table of solves: a model on a scene that is wanted is an `Ask`, its row a `Solved`.
+"""The table of solves: an `Ask` requests a solve of a model on a scene, a `Solved` is its row.
 
-A scene goes down once with all that is wanted of it, and rows come up (`sweep`); what a campaign's store has
-is not solved again. Every question that solves several models is a reading of these rows: error bars
-(`comparisons.sweep.limits`), errors and fronts (`comparisons.sweep.front`).
+`sweep` returns the rows of requested solves; solves in a campaign's store are not repeated. Error bars
+(`comparisons.sweep.limits`), errors and fronts (`comparisons.sweep.front`) are computed from rows.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from sheetbench.answers.history import History
 from sheetbench.answers.solution import Status, comparable
 from sheetbench.scenes import Scene
 
-if TYPE_CHECKING:  # multiprocessing and sqlite3 are a fortieth of what `compare` takes
+if TYPE_CHECKING:  # imports of multiprocessing and sqlite3 take a fortieth of `compare`
     from comparisons.sweep.campaign import CampaignKeywords, Run
     from comparisons.sweep.store import Store
 
@@ -29,12 +28,12 @@ TASK = "comparisons.sweep.task:solve"
 
 @dataclass(frozen=True)
 class Ask:
-    """A solve that is wanted: at rest, or over a `duration` [s] of motion, sampled `every` so often [s].
+    """A requested solve: at rest, or of a motion over `duration` [s], sampled at intervals `every` [s].
 
-    repeats: timed solves at least, 0 where the time does not matter; columns: further ones of
-    `comparisons.sweep.columns`; run: what a motion's `simulate` takes, as integrator, step and error;
-    version: of an external code, under which the row is kept; tags: what was varied, for the reader of the
-    row; label: what people read, unless it is the model's.
+    repeats: least number of timed solves, 0 without timing; columns: additional ones of
+    `comparisons.sweep.columns`; run: keywords of a motion's `simulate`, as integrator, step and error;
+    version: of an external code, part of the row's key; tags: varied parameters, stored with the row; label:
+    shown in place of the model's.
     """
 
     scene: Scene
@@ -50,20 +49,19 @@ class Ask:
 
     @property
     def task(self) -> Run:
-        """The run of a campaign that makes the row."""
+        """The campaign run that computes the row."""
         from comparisons.sweep.campaign import Run
 
-        own = {"repeats": self.repeats, "columns": list(self.columns), "duration": self.duration}
-        own |= {"every": self.every, "run": dict(self.run), "version": self.version}
-        given = {name: value for name, value in own.items() if value}
+        options: dict[str, Any] = {"repeats": self.repeats, "columns": list(self.columns)}
+        options |= {"duration": self.duration, "every": self.every, "run": dict(self.run)}
+        options |= {"version": self.version, "digest": plugins.digest(self.spec.model)}
         arguments = {"scene": self.scene.document(), "model": self.spec.model, "settings": self.spec.settings}
-        if (digest := plugins.digest(self.spec.model)) is not None:
-            given["digest"] = digest
-        return Run(TASK, arguments | given, self.label or self.spec.label, self.repeats > 0)
+        arguments |= {name: value for name, value in options.items() if value}
+        return Run(TASK, arguments, self.label or self.spec.label, self.repeats > 0)
 
     @property
     def layered(self) -> bool:
-        """Whether the elements are quadratic and have the layer of `fem_reference.edge_layer`."""
+        """Whether the elements are quadratic and have the edge layer of `fem_reference.edge_layer`."""
         if isinstance(self.spec, External):
             return bool(getattr(plugins.plugin(self.spec.model), "layered", False))
         return isinstance(self.spec, Elements)
@@ -71,9 +69,9 @@ class Ask:
 
 @dataclass(frozen=True)
 class Solved:
-    """A row: what was wanted, how it ended, and what `comparisons.sweep.task.solve` found, plain data in SI
-    units, nothing but a traceback where there was a fault; started, finished:
-    UTC; run_seconds: what the run took in all."""
+    """A row of the table: the requested solve, its status, and the result of `comparisons.sweep.task.solve`.
+    row: plain data in SI units, for a fault a traceback alone; started, finished: UTC; run_seconds: total
+    time of the run."""
 
     ask: Ask
     status: str
@@ -85,13 +83,12 @@ class Solved:
 
     @property
     def usable(self) -> bool:
-        """Whether it may be compared with others: an equilibrium under the whole load, or a motion to its
-        end."""
+        """Whether the row can be compared: an equilibrium under the whole load, or a complete motion."""
         return "probes" in self.row and comparable(self.status, self.row.get("load_factor", 1.0))
 
     @property
     def stable(self) -> bool:
-        """Whether it is a stable, physical equilibrium under the whole load."""
+        """Whether the answer is a stable equilibrium under the whole load, or a converged motion."""
         return self.usable and self.status == Status.CONVERGED
 
     @property
@@ -101,12 +98,12 @@ class Solved:
 
     @property
     def label(self) -> str:
-        """The solver's own, with its settings, or what was wanted."""
+        """The solver's label with its settings, without an answer the request's label."""
         return str(self.row.get("label", self.ask.label or self.ask.spec.label))
 
     @property
     def ending(self) -> str:
-        """How it ended, in a clause."""
+        """Label, status and message as a clause."""
         return ": ".join(filter(None, [self.label, self.status, self.message]))
 
     @property
@@ -117,12 +114,12 @@ class Solved:
 
     @property
     def field(self) -> np.ndarray:
-        """Displacement (n, 3) [m] all over the sheet, where the column `field` was wanted."""
+        """Displacement (n, 3) [m] at `field_points`, for solves with the column `field`."""
         return np.array(self.row["columns"]["field"], dtype=float)
 
     @property
     def counts(self) -> list[int]:
-        """Cells along x and y; nothing where the settings do not tell."""
+        """Cells along x and y, empty if the settings have no size."""
         settings = self.row.get("settings") or self.ask.spec.settings
         if isinstance(self.ask.spec, Elements):
             return self.ask.spec.counts(self.ask.scene)[:2]
@@ -130,12 +127,12 @@ class Solved:
 
     @property
     def size(self) -> float:
-        """Mean size [m] of a cell."""
+        """Mean size of a cell [m]."""
         return float(np.sqrt(np.prod(self.ask.scene.sheet.lengths) / np.prod(self.counts)))
 
     @property
     def samples(self) -> tuple[float, ...]:
-        """Times [s] of the solve alone, every one."""
+        """Times of the timed solves, without set-up [s]."""
         return tuple(self.conditions.get("samples", ()))
 
     @property
@@ -145,28 +142,27 @@ class Solved:
 
     @property
     def conditions(self) -> dict[str, Any]:
-        """What the solve took, and of which machine (`comparisons.sweep.load`)."""
+        """Costs of the solve and its conditions (`comparisons.sweep.load`)."""
         return self.row.get("cost") or {}
 
     @property
     def history(self) -> History | None:
-        """The motion, None where it did not reach its end."""
+        """The motion, None if it is incomplete."""
         if not self.usable:
             return None
-        names = (one.name for one in fields(History) if one.name in self.row)
-        found: dict[str, Any] = {name: self.row[name] for name in names}
+        values = {entry.name: self.row[entry.name] for entry in fields(History) if entry.name in self.row}
         for name in ("probes", "energies", "reactions", "actuators"):
-            found[name] = {key: np.array(values) for key, values in found[name].items()}
-        return History(**found | {"status": Status(self.status), "time": np.array(found["time"])})
+            values[name] = {key: np.array(series) for key, series in values[name].items()}
+        return History(**values | {"status": Status(self.status), "time": np.array(values["time"])})
 
 
-def sweep(asks: Sequence[Ask], store: Store, **how: Unpack[CampaignKeywords]) -> list[Solved]:
-    """Return a row for every solve that is wanted, in their order, through a campaign's store; how: as
-    `comparisons.sweep.campaign.carry_out` takes it."""
+def sweep(asks: Sequence[Ask], store: Store, **campaign: Unpack[CampaignKeywords]) -> list[Solved]:
+    """Return the rows of requested solves, in their order, through a campaign's store; campaign: keywords of
+    `comparisons.sweep.campaign.carry_out`."""
     from comparisons.sweep.campaign import carry_out
 
-    done = carry_out([ask.task for ask in asks], store, **how)
+    runs = carry_out([ask.task for ask in asks], store, **campaign)
     return [
-        Solved(ask, one.status, one.message, one.row, one.started, one.finished, one.seconds)
-        for ask, one in zip(asks, done, strict=True)
+        Solved(ask, run.status, run.message, run.row, run.started, run.finished, run.seconds)
+        for ask, run in zip(asks, runs, strict=True)
     ]

@@ -1,12 +1,10 @@
-"""The SQLite file of a campaign: one row a finished run, written at once and never changed.
+"""The SQLite file of a campaign: one row per finished run, written immediately and never changed.
 
-Runs that failed or were lost may be forgotten, to be done again.
-
-Table `runs`: key (hash of arguments and code, see `campaign.Run`), task and arguments (JSON),
-status, row (JSON, the run's answer), message, started and finished (UTC, ISO 8601), seconds, and a digest
-of all these. A row is committed, and synchronised to disk, before the next run's result is looked at: killing
-the process loses only runs that had not finished. A file that is damaged, locked or cannot be written is
-refused, and left as it is.
+Failed and lost runs may be removed, to be repeated. The table `runs` has key (hash of arguments and code, see
+`campaign.Run`), task and arguments (JSON), status, row (JSON, the run's answer), message, started and
+finished (UTC, ISO 8601), seconds, and a digest of all other columns. A row is committed and synchronised to
+disk before the next run's result is read, so killing the process loses unfinished runs alone. A file that is
+damaged, locked or not writable is refused and left unchanged.
 """
 
 from __future__ import annotations
@@ -38,12 +36,9 @@ _MEND = "make it readable and writable, with room on the disk and no other progr
 
 @dataclass(frozen=True)
 class Finished:
-    """A finished run: its key, how it ended, its answer (plain JSON data), when (UTC) and in how long [s].
-
-    status: the solver's where the run is a solve, else `done`; `refused` where its input was refused (it
-    raised BadInput), `failed` where it raised anything else, a fault whose "traceback" is all the row holds;
-    `lost` where it took its process down with it or had not enough memory.
-    """
+    """A finished run: its key, status, answer (plain JSON data), times (UTC) and duration [s]. status: the
+    solver's for a solve, else `done`; `refused` after a BadInput; `failed` after any other exception, with
+    its "traceback" as the only entry of the row; `lost` if its process crashed or had not enough memory."""
 
     key: str
     status: str
@@ -55,12 +50,12 @@ class Finished:
 
 
 class Store:
-    """The finished runs of a folder's campaigns. passing: whether the folder is removed at the end."""
+    """The finished runs of a folder's campaigns; passing: whether the folder is temporary."""
 
     passing = False
 
     def __init__(self, path: Path) -> None:
-        """Open or make the file. Raises BadInput for one that is not a campaign's, damaged or read-only."""
+        """Open or create the file. Raises BadInput for a damaged, read-only or foreign file."""
         self.path = path
         require_file(path)  # SQLite would follow a link
         with self._database_errors():
@@ -86,7 +81,7 @@ class Store:
             raise BadInput(f"{self.path}: is of another program or version; {_MOVE}")
 
     def add(self, task: str, arguments: dict[str, Any], run: Finished) -> None:
-        """Keep a finished run. Raises BadInput where the file cannot be written."""
+        """Store a finished run. Raises BadInput if the file cannot be written."""
         inputs, outputs = (json.dumps(plain(part), allow_nan=False) for part in (arguments, run.row))
         values = (
             *(run.key, task, inputs, run.status, outputs, run.message),
@@ -97,8 +92,7 @@ class Store:
             self._database.execute(f"insert into runs values ({places})", (*values, _digest(values)))
 
     def get(self, key: str) -> Finished | None:
-        """Return the finished run of a key, if there is one. Raises BadInput for a row that was changed
-        since."""
+        """Return the finished run of a key, None without one. Raises BadInput for a damaged row."""
         with self._database_errors():
             record = self._database.execute("select * from runs where key = ?", (key,)).fetchone()
         if record is None:
@@ -120,7 +114,7 @@ class Store:
 
     @contextmanager
     def _database_errors(self) -> Iterator[None]:
-        """What SQLite complains of, as a BadInput that names the file."""
+        """Convert errors of SQLite to a BadInput that names the file."""
         try:
             yield
         except sqlite3.Error as error:

@@ -1,9 +1,8 @@
-"""The one task of the table of solves: a model on a scene, at rest or in motion, and what it cost.
+"""The task of the table of solves: a solve of a model on a scene, at rest or in motion, with its cost.
 
-Time: the solve alone, after two solves of the same problem that are not counted; every sample kept. Memory:
-how far the process' resident set rises, during the second solve and its set-up, above what it was with all
-code loaded (Linux; elsewhere the rise of the largest resident set so far). Quick solves are repeated until
-`SETTLED` seconds are spent, up to `MOST` times, so that their median means something.
+Times are of the solve alone, after two untimed solves of the problem; every sample is stored. Memory is the
+growth of the process (`comparisons.sweep.peak_memory`) during the second solve and its set-up. Quick solves
+are repeated until `SETTLED` seconds are spent, at most `MOST` times, for a meaningful median.
 """
 
 from __future__ import annotations
@@ -35,15 +34,15 @@ def solve(
     columns: Sequence[str] = (),
     duration: float | None = None,
     every: float | None = None,
-    run: Mapping[str, Any] = {},  # read alone
+    run: Mapping[str, Any] = {},  # never changed
     version: str | None = None,
     digest: str | None = None,
 ) -> dict[str, Any]:
-    """Return the row of a solve (`comparisons.sweep.solved.Ask`): its document, and under `columns` and
-    `cost` what else was wanted.
+    """Return the row of a requested solve (`comparisons.sweep.solved.Ask`): the answer's document, with its
+    additional `columns` and `cost`.
 
-    version, digest: of an external code and of a plug-in, under which the row is kept; one that has changed
-    since raises RuntimeError.
+    version, digest: of an external code and of a plug-in, parts of the row's key. Raises RuntimeError for a
+    plug-in that has changed since the request.
     """
     if plugins.digest(model) != digest:
         raise RuntimeError(f"model = '{model}': the plug-in changed since this run was requested")
@@ -54,7 +53,7 @@ def solve(
     warm(model)
 
     def solved() -> Solution:
-        with running(large=True):  # who asks has looked at the size
+        with running(large=True):  # the size was checked with the request
             return answer(resolve(requested, spec_of(model, settings)))
 
     solution = solved()
@@ -76,17 +75,18 @@ def _motion(
 ) -> dict[str, Any]:
     use: Use = "motion"
     with running(large=True):
-        meant = resolve(scene, spec_of(model, settings), use)
-    ours = plugins.digest(model) is None
-    if ours:
-        small = resolve(scene, meant.spec.but(count=1), use) if isinstance(meant.spec, Elements) else meant
+        resolved = resolve(scene, spec_of(model, settings), use)
+    internal = plugins.digest(model) is None
+    if internal:  # warm-up
+        spec = resolved.spec
+        small = resolve(scene, spec.but(count=1), use) if isinstance(spec, Elements) else resolved
         simulate(small, 2.0 * every, every=every, **run)
-    history, memory = with_peak_memory(lambda: simulate(meant, duration, every=every, **run))
-    found = size(scene, meant.spec)
-    unknowns = history.extra.get("unknowns") if found is None else found.unknowns
-    return {**history.document(), "unknowns": unknowns, "cost": _cost(memory if ours else None)}
+    history, memory = with_peak_memory(lambda: simulate(resolved, duration, every=every, **run))
+    estimate = size(scene, resolved.spec)
+    unknowns = history.extra.get("unknowns") if estimate is None else estimate.unknowns
+    return {**history.document(), "unknowns": unknowns, "cost": _cost(memory if internal else None)}
 
 
 def _cost(memory: int | None) -> dict[str, Any]:
-    """What a solve took of the machine, and which; another program's memory is not this process'."""
+    """Return memory, load and machine of a solve; memory: of this process, None for other programs."""
     return {"peak_memory_bytes": memory, **load.conditions()}

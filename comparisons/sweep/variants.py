@@ -1,8 +1,8 @@
-"""Variants of a scene: values of keys of its file, each beside every value of the others.
+"""Variants of a scene: all combinations of values of some keys of its file.
 
-A key is written as in the file with dots between, entries of a list by their number: `sheet.thickness`,
-`load.2.value`, `support1.tilt`, `gravity.acceleration.3`. A value is what the file may hold there, with a
-unit of its own or not; `a..b:n` stands for n of them from a to b at equal distances.
+A key is written as in the file, its parts joined by dots and entries of a list by number: `sheet.thickness`,
+`load.2.value`, `support1.tilt`, `gravity.acceleration.3`. A value is any valid value of the file, with or
+without a unit; `a..b:n` stands for n equally spaced values from a to b.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Path = tuple[str | int, ...]
 
 @dataclass(frozen=True)
 class Variant:
-    """A scene and what was varied: values in SI units by key."""
+    """A scene and its varied values in SI units, by key."""
 
     scene: Scene
     varied: dict[str, Any]
@@ -49,18 +49,16 @@ def in_words(varied: Mapping[str, Any]) -> str:
 
 
 def variants(scene: Scene, vary: Sequence[str]) -> list[Variant]:
-    """Return a scene for every combination of values, the last key's values the quickest to change.
-
-    vary: texts KEY=VALUES. Raises BadInput for what cannot be read, SceneError for a scene that cannot be.
-    """
+    """Return a scene for every combination of values; the last key varies fastest. vary: texts KEY=VALUES.
+    Raises BadInput for an invalid text, SceneError for an invalid scene."""
     listed: dict[str, list[Any]] = {}
     for text in vary:
         key, equals, values = text.partition("=")
-        if not equals or key.strip() in listed or not (found := _values(key, values)):
+        if not equals or key.strip() in listed or not (parsed := _values(key, values)):
             raise BadInput(
                 f"--vary = '{text}': write each key once, as sheet.thickness=1mm,2mm or KEY=a..b:5"
             )
-        listed[key.strip()] = found
+        listed[key.strip()] = parsed
     if not listed:
         raise BadInput("--vary: nothing to vary; write KEY=a,b,c, as sheet.thickness=1mm,2mm")
     if (count := int(np.prod([len(values) for values in listed.values()]))) > MOST:
@@ -69,27 +67,27 @@ def variants(scene: Scene, vary: Sequence[str]) -> list[Variant]:
 
 
 def unit_of(key: str) -> str:
-    """Return the SI unit of a key's values, "" where it has none."""
+    """Return the SI unit of a key's values, "" without one."""
     return unit_at(_path(key), json_schema(Scene)) or ""
 
 
 def _values(key: str, text: str) -> list[Any]:
-    """Return the values that a text lists; brackets hold those together that are one list."""
-    found: list[Any] = []
+    """Return the values listed in a text; a list as one value is in brackets."""
+    out: list[Any] = []
     for part in filter(None, map(str.strip, re.split(r",(?![^\[]*\])", text))):
-        if (between := _RANGE.fullmatch(part)) is None:
-            found.append(_value(part))
+        if (match := _RANGE.fullmatch(part)) is None:
+            out.append(_value(part))
             continue
-        first, unit, last, other, count = between.groups()
+        first, unit, last, other, count = match.groups()
         if (unit and unit != other) or not 2 <= int(count) <= MOST:
             raise BadInput(f"--vary {key} = '{part}': write a..b:n, both in one unit, n from 2 to {MOST}")
         numbers = np.linspace(float(first), float(last), int(count)).tolist()
-        found += [f"{x:.12g} {other}" if other else float(f"{x:.12g}") for x in numbers]
-    return found
+        out += [f"{x:.12g} {other}" if other else float(f"{x:.12g}") for x in numbers]
+    return out
 
 
 def _value(text: str) -> Any:
-    """Return a number, a list, true or false as JSON has them, any other text as it is."""
+    """Return the value of a JSON text, any other text unchanged."""
     try:
         return json.loads(text)
     except (ValueError, RecursionError):
@@ -102,49 +100,49 @@ def _path(key: str) -> Path:
 
 
 def _variant(scene: Scene, values: Mapping[str, Any]) -> Variant:
-    """Return the scene with other values. Raises SceneError where it cannot be."""
-    data, chosen = scene.document(), scene.model_dump(by_alias=True, exclude_defaults=True)
+    """Return the scene with other values. Raises SceneError for an invalid scene."""
+    data, given = scene.document(), scene.model_dump(by_alias=True, exclude_defaults=True)
     if scene.replace(probes={}).probes == scene.probes:
-        del data["probes"]  # chosen by the outline
-    said = ", ".join(f"{key} = {value}" for key, value in values.items())
+        del data["probes"]  # default probes depend on the outline
+    text = ", ".join(f"{key} = {value}" for key, value in values.items())
     for key, value in values.items():
-        *place, last = _path(key)
-        if last == "kind":  # the defaults of another one are not of this
-            table = _get(data, place, {})
-            for name in set(table) - set(_get(chosen, place, table)):
+        *path, last = _path(key)
+        if last == "kind":  # another kind has other defaults
+            table = _get(data, path, {})
+            for name in set(table) - set(_get(given, path, table)):
                 del table[name]
         _put(data, key, value)
     try:
-        found = Scene.model_validate(data)
+        variant = Scene.model_validate(data)
     except ValidationError as error:
-        raise SceneError(f"--vary {said}: {in_one_line(error, Scene)}") from None
-    document = found.document()
-    return Variant(found, {key: _get(document, _path(key), value) for key, value in values.items()})
+        raise SceneError(f"--vary {text}: {in_one_line(error, Scene)}") from None
+    document = variant.document()
+    return Variant(variant, {key: _get(document, _path(key), value) for key, value in values.items()})
 
 
 def _put(data: Any, key: str, value: Any) -> None:
-    """Put a value at its place in a scene's document; a table that is not there yet is made."""
+    """Put a value into a scene's document; missing tables are made."""
     *path, last = _path(key)
-    of = data
+    node = data
     for part in path:
-        named = isinstance(of, dict) and isinstance(part, str)
-        of = of.setdefault(part, {}) if named else _entry(of, part, key)
-    if not (isinstance(of, dict) and isinstance(last, str)):
-        _entry(of, last, key)
-    of[last] = value
+        is_table = isinstance(node, dict) and isinstance(part, str)
+        node = node.setdefault(part, {}) if is_table else _entry(node, part, key)
+    if not (isinstance(node, dict) and isinstance(last, str)):
+        _entry(node, last, key)
+    node[last] = value
 
 
-def _entry(of: Any, part: str | int, key: str) -> Any:
-    if not isinstance(of, list) or not isinstance(part, int) or not 0 <= part < len(of):
+def _entry(node: Any, part: str | int, key: str) -> Any:
+    if not isinstance(node, list) or not isinstance(part, int) or not 0 <= part < len(node):
         raise BadInput(f"--vary {key}: the scene has no such entry; lists count from 1, as support.1.tilt")
-    return of[part]
+    return node[part]
 
 
-def _get(document: Any, path: Iterable[str | int], usual: Any) -> Any:
-    """Return the value at a place, the usual one where there is none."""
+def _get(document: Any, path: Iterable[str | int], default: Any) -> Any:
+    """Return the value at a path of a document, the default if there is none."""
     for part in path:
         try:
             document = document[part]
         except (KeyError, IndexError, TypeError):
-            return usual
+            return default
     return document

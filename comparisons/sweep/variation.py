@@ -1,7 +1,7 @@
-"""Models of one scene whose values vary: `sheetbench sweep`, and its answer.
+"""Models on variants of a scene: the computation and the answer of `sheetbench sweep`.
 
-Every variant is solved by every model, through a campaign's store; errors are at the probes and over the
-sheet against the reference of the same variant (`comparisons.comparison.errors`).
+Every variant is solved by every model, through a campaign's store; errors at the probes and over the sheet
+are against the reference on the variant (`comparisons.comparison.errors`).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ AXES = ("ux", "uy", "uz")
 
 @dataclass(frozen=True)
 class VariedRow(Solved):
-    """A model's answer to a variant, and its errors against the reference, None where there are none."""
+    """A model's answer to a variant, and its errors against the reference, if known."""
 
     error: float | None = None
     field_error: float | None = None
@@ -48,8 +48,7 @@ class VariedRow(Solved):
 
 @dataclass(frozen=True, repr=False)
 class Variation(Answer):
-    """A row per variant and model, the variants in their order; reference: the model errors are against, ""
-    where there is none."""
+    """Rows of all variants and models; reference: name of the model that errors refer to, "" without one."""
 
     file_name = "sweep"
     scene: Scene
@@ -70,28 +69,28 @@ class Variation(Answer):
 
     @property
     def keys(self) -> list[str]:
-        """What is varied."""
+        """The varied keys."""
         return list(self.rows[0].varied)
 
     def numeric(self, key: str) -> bool:
         """Return whether all values of a key are numbers."""
         values = [row.varied[key] for row in self.rows]
-        return all(isinstance(one, int | float) and not isinstance(one, bool) for one in values)
+        return all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
 
     @cached_property
-    def moves_most(self) -> tuple[str, int]:
-        """The probe and the component that move most in any variant."""
-        most = [np.abs(row.u) for row in self.rows if row.usable]
-        whole = np.max(most, axis=0) if most else np.zeros((len(self.scene.probes), 3))
-        probe, axis = np.unravel_index(int(np.argmax(whole)), whole.shape)
+    def largest_component(self) -> tuple[str, int]:
+        """The probe and the component with the largest displacement of any variant."""
+        values = [np.abs(row.u) for row in self.rows if row.usable]
+        largest = np.max(values, axis=0) if values else np.zeros((len(self.scene.probes), 3))
+        probe, axis = np.unravel_index(int(np.argmax(largest)), largest.shape)
         return list(self.scene.probes)[probe], int(axis)
 
     def tables(self) -> tuple[Table, ...]:
-        shown = self.moves_most
+        main = self.largest_component
         places = [(probe, axis) for probe in self.scene.probes for axis in range(3)]
         columns = (
             *(unit(unit_of(key))(".4g", key) if self.numeric(key) else Column(key) for key in self.keys),
-            *("model", *(MILLIMETRES(".4g", f"{p} {AXES[a]}", detail=(p, a) != shown) for p, a in places)),
+            *("model", *(MILLIMETRES(".4g", f"{p} {AXES[a]}", detail=(p, a) != main) for p, a in places)),
             *(PERCENT(".2g", "error"), PERCENT(".2g", "field error")),
             *(MILLISECONDS(".3g", "solve", detail=True), Column("status", prose=True)),
         )
@@ -110,18 +109,16 @@ class Variation(Answer):
 
     def result(self) -> str:
         count = len({str(row.varied) for row in self.rows})
-        known = [row for row in self.rows if row.error is not None]
-        if not known:
+        with_error = [row for row in self.rows if row.error is not None]
+        if not with_error:
             return f"{count} variants of {', '.join(self.keys)}"
-        off = max(known, key=lambda row: row.error or 0.0)
-        up_to = f"up to {few(100.0 * (off.error or 0.0))} % off the {self.reference}"
-        return f"{count} variants: {off.model} is {up_to}, at {in_words(off.varied)}."
+        worst = max(with_error, key=lambda row: row.error or 0.0)
+        error = f"up to {few(100.0 * (worst.error or 0.0))} % off the {self.reference}"
+        return f"{count} variants: {worst.model} is {error}, at {in_words(worst.varied)}."
 
     def notes(self) -> tuple[str, ...]:
-        against = (
-            f"error: at the probes, from the {self.reference} of the same variant; `compare` has its bar."
-        )
-        return (self.result(), *([against] if self.reference else []))
+        text = f"error: at the probes, from the {self.reference} of each variant; `compare` has its bar."
+        return (self.result(), *([text] if self.reference else []))
 
     def complaints(self) -> list[str]:
         """Return a sentence for every row without a stable equilibrium."""
@@ -142,29 +139,28 @@ def vary(
     *,
     models: Sequence[Spec],
     reference: Spec | None,
-    **how: Unpack[CampaignKeywords],
+    **campaign: Unpack[CampaignKeywords],
 ) -> Variation:
     """Return every model's answer to every variant (`comparisons.sweep.variants`).
 
-    Raises SceneError for a variant that cannot be or has no static answer, and BadInput for a model or
-    setting that does not exist, before anything is solved. A solve that fails is a row with its status.
+    Raises, before the first solve, SceneError for a variant that is invalid or has no static answer, and
+    BadInput for an unknown model or setting. A failed solve is a row with its status.
     """
-    varied = variants(scene, values)
     specs: dict[str, Spec] = {} if reference is None else {reference.model: reference}
     for spec in models:
         specs[unlike(spec.model, specs)] = spec
     asks = []
-    for one in varied:
-        require_static(one.scene)
+    for variant in variants(scene, values):
+        require_static(variant.scene)
         for name, spec in specs.items():
-            resolve(one.scene, spec)
-            tags, label = {"varied": one.varied, "model": name}, f"{name} {one}"
-            asks.append(Ask(one.scene, spec, columns=("field",), tags=tags, label=label))
-    rows, found = sweep(asks, store, **how), []
-    for n in range(0, len(rows), len(specs)):
-        truth = rows[n] if reference is not None and rows[n].usable else None
-        found += [_row(row, truth) for row in rows[n : n + len(specs)]]
-    return Variation(scene, "" if reference is None else reference.model, tuple(found))
+            resolve(variant.scene, spec)
+            tags, label = {"varied": variant.varied, "model": name}, f"{name} {variant}"
+            asks.append(Ask(variant.scene, spec, columns=("field",), tags=tags, label=label))
+    solved, rows = sweep(asks, store, **campaign), []
+    for n in range(0, len(solved), len(specs)):
+        truth = solved[n] if reference is not None and solved[n].usable else None
+        rows += [_row(row, truth) for row in solved[n : n + len(specs)]]
+    return Variation(scene, "" if reference is None else reference.model, tuple(rows))
 
 
 def _row(row: Solved, truth: Solved | None) -> VariedRow:

@@ -1,4 +1,4 @@
-"""The picture of a sweep: the displacement that is largest, and the error, over the first key varied."""
+"""The figure of a sweep: the largest displacement component and the error over the first varied key."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ MARKERS = "osvD^P"
 MOST = 12  # names under the panels
 
 
-def compose(found: Variation, style: FigureStyle = PLAIN) -> Figure:
+def compose(variation: Variation, style: FigureStyle = PLAIN) -> Figure:
     """Return the figure: a line for every model and combination of the other keys' values."""
-    key, *others = found.keys
-    shown, (probe, axis) = unit(unit_of(key)), found.moves_most
+    key, *others = variation.keys
+    key_unit, (probe, axis) = unit(unit_of(key)), variation.largest_component
     lines: dict[tuple[str, str], list[VariedRow]] = {}
-    for row in found.rows:
+    for row in variation.rows:
         fixed = in_words({name: row.varied[name] for name in others})
         lines.setdefault((fixed, row.model), []).append(row)
     figure = Figure(layout="constrained")
@@ -30,34 +30,29 @@ def compose(found: Variation, style: FigureStyle = PLAIN) -> Figure:
     models = list(dict.fromkeys(model for _, model in lines))
     colours = dict(zip(dict.fromkeys(fixed for fixed, _ in lines), cycle(SERIES), strict=False))
     for (fixed, model), rows in lines.items():
-        known = [row for row in rows if row.usable]
-        values = [row.varied[key] for row in known]
-        at = [shown.scale * one for one in values] if found.numeric(key) else [*map(str, values)]
-        place = list(found.scene.probes).index(probe)
+        usable = [row for row in rows if row.usable]
+        values = [row.varied[key] for row in usable]
+        x = [key_unit.scale * value for value in values] if variation.numeric(key) else [*map(str, values)]
+        index = list(variation.scene.probes).index(probe)
         marker = MARKERS[models.index(model) % len(MARKERS)]
-        how: dict[str, Any] = {
-            "color": colours[fixed],
-            "marker": marker,
-            "ms": 3.6,
-            "lw": 0.9,
-            "markerfacecolor": "white",
-        }
-        how |= {"ls": (0, (4, 1.5))} if model == found.reference else {}
-        left.plot(at, [1e3 * row.u[place, axis] for row in known], label=plain(f"{model}  {fixed}"), **how)
-        off = [(x, 100.0 * row.error) for x, row in zip(at, known, strict=True) if row.error is not None]
-        if off:
-            right.plot(*zip(*off, strict=True), **how)
-    name, bracket = Column(key, shown_unit=shown.shown).heading(shown=True)
+        line: dict[str, Any] = {"color": colours[fixed], "marker": marker, "ms": 3.6, "lw": 0.9}
+        line |= {"markerfacecolor": "white"}
+        line |= {"ls": (0, (4, 1.5))} if model == variation.reference else {}
+        left.plot(x, [1e3 * row.u[index, axis] for row in usable], label=plain(f"{model}  {fixed}"), **line)
+        points = [(at, 100.0 * row.error) for at, row in zip(x, usable, strict=True) if row.error is not None]
+        if points:
+            right.plot(*zip(*points, strict=True), **line)
+    name, bracket = Column(key, shown_unit=key_unit.shown).heading(shown=True)
     for panel, label in ((left, f"{AXES[axis]} at {plain(probe)} [mm]"), (right, "error at the probes [%]")):
         panel.set_xlabel(f"{plain(name)} {bracket}")
         panel.set_ylabel(label)
     right.set_ylim(bottom=0.0)
     handles, labels = left.get_legend_handles_labels()
-    named, columns = min(len(labels), MOST), 1 if style.narrow else 2
-    below: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": 7}
-    figure.legend(handles[:named], labels[:named], loc="outside lower center", **below)
+    count, columns = min(len(labels), MOST), 1 if style.narrow else 2
+    legend: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": 7}
+    figure.legend(handles[:count], labels[:count], loc="outside lower center", **legend)
     if style.titled:
-        title = plain(found.scene.title or found.scene.name, longest=110)
+        title = plain(variation.scene.title or variation.scene.name, longest=110)
         figure.suptitle(title, x=0.01, ha="left", fontsize=8.5)
-    figure.set_size_inches(style.width, 2.6 * style.panels(2)[0] + 0.18 * -(-named // columns) + 0.3)
+    figure.set_size_inches(style.width, 2.6 * style.panels(2)[0] + 0.18 * -(-count // columns) + 0.3)
     return figure

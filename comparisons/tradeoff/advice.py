@@ -1,4 +1,4 @@
-"""What to solve, and why: the answer of `sheetbench tradeoff --tolerance`."""
+"""Advice on the model for a scene, with its reasons: the answer of `sheetbench tradeoff --tolerance`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite
 from shlex import join
-from typing import Any
+from typing import Annotated, Any
 
 from comparisons.models.grading import parse_grading
 from comparisons.models.spec import Elements, Lattice, Spec, counted
@@ -21,20 +21,26 @@ from sheetbench.choices import CALIBRATION
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 
-TRIED = (
-    *(Column("model", prose=True), "size", MILLISECONDS(".2f", "solve"), PERCENT(".3g", "error")),
-    *(PERCENT(".3g", "field error"), PERCENT(".3g", "in all"), Column("choice", words=("yes", ""))),
-)
+
+@dataclass(frozen=True)
+class TrialRow:
+    """A trial solve: its model, time and errors, whether it is the choice, and its status."""
+
+    model: Annotated[str, Column(prose=True)]
+    size: str
+    solve: Annotated[float, MILLISECONDS(".2f")]
+    error: Annotated[float | None, PERCENT(".3g")]
+    field_error: Annotated[float | None, PERCENT(".3g")]
+    total: Annotated[float | None, PERCENT(".3g", "in all")]
+    choice: Annotated[bool, Column(words=("yes", ""))]
+    status: Annotated[str, Column(prose=True)]
 
 
 @dataclass(frozen=True, repr=False)
 class Advice(Answer):
-    """What to solve, and why.
-
-    chosen is None, with `message` saying why, where no model converges or none in `budget` is known. reasons:
-    why the lattices have their springs and grading, where that was chosen. called: how the scene was
-    requested, its name unless given.
-    """
+    """The advised model of a scene, with its reasons. chosen: the advised solve; without one `message` has
+    the reason; reasons: sentences on an automatic choice of springs and grading; called: the scene's name or
+    path for commands."""
 
     file_name = "advice"
     trials: TrialSolves
@@ -49,48 +55,47 @@ class Advice(Answer):
 
     @property
     def scene(self) -> Scene:
-        """What is to be solved."""
+        """The scene to solve."""
         return self.trials.scene
 
     @property
     def choice(self) -> Spec | None:
-        """What to solve."""
+        """The advised model, None without one."""
         return None if self.chosen is None else self.chosen.ask.spec
 
     @property
     def error(self) -> float | None:
-        """Predicted for the choice."""
+        """Predicted error of the choice, a fraction."""
         return None if self.chosen is None else self.trials.error(self.chosen)
 
     @cached_property
     def bar(self) -> float:
-        """Of the reference, by its mesh."""
+        """Error bar of the reference due to its mesh, a fraction."""
         return self.trials.uncertainty
 
     @property
     def model(self) -> ModelError | None:
-        """What the reference leaves out on every mesh."""
+        """Model error of the reference, independent of its mesh."""
         return self.trials.model_error
 
     @property
     def warnings(self) -> list[str]:
-        """On times taken on a busy machine, and what was left out."""
+        """Warnings about times measured on a busy machine and about models left out."""
         rows, refused = self.trials.rows.values(), self.trials.refused.items()
-        doubts = load.warnings([row.conditions for row in rows], [row.samples for row in rows])
-        return [*doubts, *(f"{one.model} {one.size} left out: {reason}" for one, reason in refused)]
+        unreliable = load.warnings([row.conditions for row in rows], [row.samples for row in rows])
+        return [*unreliable, *(f"{spec.model} {spec.size} left out: {reason}" for spec, reason in refused)]
 
     def errors(self, row: SolvedHere) -> tuple[float | None, float | None, float | None]:
-        """Return the distance of a row from the finest one at the probes and over the sheet, and the first
-        with the finest one's bar and model error, which a tolerance is held against; None where there is no
-        answer."""
-        off = self.trials.error(row) if row.stable else None
-        total = None if off is None else off + self.bar + (self.model.value if self.model else 0.0)
-        known = total is not None and isfinite(total)
-        return off, self.trials.field_error(row), total if known else None
+        """Return a row's error at the probes, its error over the sheet, and its total error, unknown as None.
+        The total, for comparison with a tolerance, is the error at the probes plus the reference's error bar
+        and model error."""
+        error = self.trials.error(row) if row.stable else None
+        total = None if error is None else error + self.bar + (self.model.value if self.model else 0.0)
+        return error, self.trials.field_error(row), total if total is not None and isfinite(total) else None
 
     @property
     def reason(self) -> str:
-        """The advice in a sentence."""
+        """The predicted error and time of the choice and its message, in a sentence."""
         if self.error is None or self.chosen is None:
             return self.message
         size = f"{few(100 * self.error, 3)} % ± {few(100 * self.bar)} %"
@@ -110,9 +115,9 @@ class Advice(Answer):
     def document(self) -> dict[str, Any]:
         tried = []
         for row in self.trials.rows.values():
-            own = _named(row.ask.spec) | {"status": row.status}
-            own |= dict(zip(("error", "field_error", "total"), self.errors(row), strict=True))
-            tried.append(own | {"solve_seconds": row.seconds})
+            trial = _named(row.ask.spec) | {"status": row.status}
+            trial |= dict(zip(("error", "field_error", "total"), self.errors(row), strict=True))
+            tried.append(trial | {"solve_seconds": row.seconds})
         return {
             "scene": self.scene.name,
             "tolerance": self.tolerance,
@@ -138,22 +143,22 @@ class Advice(Answer):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row per probing solve, the quickest first; the choice is marked. Statuses that are all
-        "converged" are for the files alone."""
-        rows = [
-            (
-                *(row.ask.spec.series, row.ask.spec.size, row.seconds, *self.errors(row)),
-                *(row is self.chosen, row.status),
+        """Return a table of the trial solves, the quickest first; statuses if not all converged."""
+        rows = []
+        for row in sorted(self.trials.rows.values(), key=lambda row: row.seconds):
+            spec, errors = row.ask.spec, self.errors(row)
+            rows.append(
+                TrialRow(spec.series, spec.size, row.seconds, *errors, row is self.chosen, row.status)
             )
-            for row in sorted(self.trials.rows.values(), key=lambda row: row.seconds)
-        ]
-        caption = "Quick solves; error: from the finest; in all: plus the finest's mesh and model errors"
-        status = Column("status", prose=True, detail=all(row[-1] == "converged" for row in rows))
+        caption = (
+            "Trial solves; error: from the finest mesh; in all: plus that mesh's bar and the model error"
+        )
+        details = ("status",) if all(row.status == "converged" for row in rows) else ()
         text = ""
         if self.tolerance is not None and isfinite(self.bar):
             model = self.model.value if self.model else None
             text = share_of_tolerance(self.tolerance, model, self.bar, "shell")
-        return (Table.listed(caption, (*TRIED, status), rows, "tried", text=text),)
+        return (Table.of(TrialRow, rows, caption, "tried", details=details, text=text),)
 
     def notes(self) -> list[str]:
         scales, command = self.trials.scales, self.command
@@ -182,7 +187,7 @@ class Advice(Answer):
 
     @property
     def command(self) -> str | None:
-        """The command line that solves the choice; None without one."""
+        """The command line for a solve of the choice, None without one."""
         spec = self.choice
         if spec is None:
             return None

@@ -1,15 +1,15 @@
 """The cheapest model that is accurate enough for a scene, or the most accurate one in a given time.
 
-Scales (`comparisons.models.scales`) decide what may be left out; a few quick solves
-(`comparisons.tradeoff.trials`) decide the rest. A model is adequate if its distance from the reference, the
-reference's error bar and what the reference leaves out on every mesh (`comparisons.sweep.model_error`)
-are together within the tolerance; where the bar leaves that open the reference is refined. Where the last
-alone is above the tolerance, the choice meets it against a converged shell only, and the advice says so.
-Predicted error: the distance; predicted time: as measured here.
+Dimensionless numbers (`comparisons.models.scales`) exclude some models; quick trial solves
+(`comparisons.tradeoff.trials`) decide among the others. A model is adequate if its error from the reference,
+the reference's error bar and the reference's model error (`comparisons.sweep.model_error`) together are
+within the tolerance; if the bar leaves this open, the reference is refined. A model error above the tolerance
+is reported, and the choice then meets the tolerance against a converged shell only. The predicted error is
+the error from the reference, the predicted time is measured here.
 
-What is left out is reported, and what the scene needs: "bending" always; "transverse shear" and "membrane
-stiffening" where they hold a share of the energy; "large displacements" where the linear answer is off; and
-"actuators" where there are some. A static question needs no dynamics.
+The advice lists effects that the scene needs and effects left out: "bending" is always needed; "transverse
+shear" and "membrane stiffening" if they have a share of the energy; "large displacements" if the linear
+answer is inaccurate; and "actuators" if the scene has some. A static answer needs no dynamics.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene
 from sheetbench.scenes.objects.grid import MASSES
 
-NEGLIGIBLE = 0.25  # of the tolerance: an effect smaller than that is left out
-LINEAR_LOAD_NUMBER = 2.0  # beyond which no linear model is worth trying
-STEEP = 0.1  # of the tolerance: the finest error bar a decision may hang on
+NEGLIGIBLE = 0.25  # of the tolerance: smaller effects are left out
+LINEAR_LOAD_NUMBER = 2.0  # linear models are not tried above it
+FINEST_BAR = 0.1  # of the tolerance: the reference is not refined for a smaller error bar
 
 
 def advise(
@@ -40,15 +40,15 @@ def advise(
     *,
     models: Sequence[str] | None = None,
 ) -> Advice:
-    """Return the cheapest model predicted to meet `tolerance` (a fraction; 0.01 unless a budget
-    alone is given), or the most accurate in `budget` [s].
+    """Return advice on the cheapest model within `tolerance`, or on the most accurate one within `budget`
+    [s].
 
-    models: only these, of "lumped", "plate", "shell". With both limits: the cheapest model that meets the
-    tolerance; where it takes longer than the budget, the most accurate one in time, and `succeeded` is false.
-    lattice: springs and grading of the lattices that may be chosen. Models that take more memory
-    than there is are left out. Raises SceneError for a scene without a static answer; BadInput where not even
-    the coarsest reference fits into memory, for a grid, and for springs and grading that contradict each
-    other.
+    tolerance: a fraction, by default 0.01 unless a budget is given. If both limits are given and the cheapest
+    model within the tolerance exceeds the budget, the most accurate one within the budget is chosen, and
+    `succeeded` is false. lattice: springs and grading of the lattices; models: a selection of "lumped",
+    "plate", "shell". Models that need more memory than is free are left out. Raises SceneError for a scene
+    without a static answer; BadInput if not even the coarsest reference fits into memory, for a grid, and for
+    contradictory springs and grading.
     """
     scene = load_static(scene)
     if budget is not None and not budget > 0.0:
@@ -63,26 +63,25 @@ def advise(
     while not trials.reference.stable and trials.refine():
         pass
     if not trials.reference.stable:
-        failed = trials.reference.answer
-        reason = f"the shell finds no stable equilibrium: {failed.status}: {failed.message}"
+        answer = trials.reference.answer
+        reason = f"the shell finds no stable equilibrium: {answer.status}: {answer.message}"
         return _advice(trials, tolerance, budget, None, reason)
     linear = not (scene.actuators or scene.obstacles) and trials.scales.span_load_number <= LINEAR_LOAD_NUMBER
     candidates = trials.candidates(linear)
     for candidate in candidates[:3]:
-        trials.tried(candidate)
-    if linear:  # each family's rate
-        trials.tried(trials.lattice(4, linear=True))
+        trials.try_row(candidate)
+    if linear:  # for the predicted times of both linear models
+        trials.try_row(trials.lattice(4, linear=True))
         trials.row(trials.elements("plate", 4))
     model = trials.model_error.value if trials.model_error else 0.0
     chosen, message = None, ""
     if tolerance is not None:
-        beyond = model >= tolerance
         chosen = _cheapest(trials, candidates, left_for_grid(tolerance, model))
         if chosen is None:
             message = (
                 f"no model here is within {100 * tolerance:g} % for certain; this is the most accurate one"
             )
-        elif beyond:
+        elif model >= tolerance:
             message = f"within {100 * tolerance:g} % of a converged shell, whose own model error is larger"
     if budget is not None and (chosen is None or chosen.seconds > budget):
         chosen = _most_accurate(trials, candidates, budget)
@@ -98,53 +97,53 @@ def advise(
 
 def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> SolvedHere | None:
     """Return the quickest candidate that is certainly within the tolerance."""
-    found: SolvedHere | None = None
-    left = list(candidates)
-    while left:
-        left.sort(key=trials.predicted_seconds)
-        candidate = left.pop(0)
-        if found is not None and trials.predicted_seconds(candidate) > 1.3 * found.seconds:
-            return found
-        trial = trials.tried(candidate)
+    best: SolvedHere | None = None
+    remaining = list(candidates)
+    while remaining:
+        remaining.sort(key=trials.predicted_seconds)
+        candidate = remaining.pop(0)
+        if best is not None and trials.predicted_seconds(candidate) > 1.3 * best.seconds:
+            return best
+        trial = trials.try_row(candidate)
         if trial is None or not _adequate(trials, trial, tolerance):
             continue
-        if found is None or trial.seconds < found.seconds:
-            found = trial
-    return found
+        if best is None or trial.seconds < best.seconds:
+            best = trial
+    return best
 
 
 def _adequate(trials: TrialSolves, trial: SolvedHere, tolerance: float) -> bool:
-    """Return whether a trial is within the tolerance; the reference is refined until that is certain."""
+    """Return whether a trial is within the tolerance; refine the reference until this is certain."""
     while True:
         error, bar = trials.error(trial), trials.uncertainty
         if error + bar <= tolerance:
             return True
-        if error - bar > tolerance or bar <= STEEP * tolerance or not trial.stable:
+        if error - bar > tolerance or bar <= FINEST_BAR * tolerance or not trial.stable:
             return False
         if not trials.refine():
             return False
 
 
 def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -> SolvedHere | None:
-    """Return the candidate of least error among those that take no longer than the budget [s]."""
-    found: SolvedHere | None = None
+    """Return the candidate of least error within the budget [s], None if all take longer."""
+    best: SolvedHere | None = None
     for candidate in candidates:
         if trials.predicted_seconds(candidate) > 1.5 * budget:
             continue
-        trial = trials.tried(candidate)
+        trial = trials.try_row(candidate)
         if trial is None or not trial.stable or trial.seconds > budget:
             continue
-        if found is None or trials.error(trial) < trials.error(found):
-            found = trial
-    return found
+        if best is None or trials.error(trial) < trials.error(best):
+            best = trial
+    return best
 
 
 def _nearest(trials: TrialSolves, candidates: list[Spec]) -> SolvedHere | None:
-    """Return the trial of least error: the reference, but where that is no candidate."""
+    """Return the trial of least error, the reference itself if it may be chosen."""
     if trials.models is None or REFERENCE in trials.models:
         return trials.reference
-    tried = [trials.rows[one] for one in candidates if one in trials.rows]
-    return min((one for one in tried if one.stable), key=trials.error, default=None)
+    rows = [trials.rows[spec] for spec in candidates if spec in trials.rows]
+    return min((row for row in rows if row.stable), key=trials.error, default=None)
 
 
 def _advice(
@@ -158,14 +157,14 @@ def _advice(
     spec = None if chosen is None else chosen.ask.spec
     grid = (spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1)).grid
     lattice = trials.resolved(trials.springs.but(grid=grid))
-    reasons = tuple(f"{name.removesuffix('_reason')}: {why}" for name, why in lattice.reasons.items())
+    reasons = tuple(f"{name.removesuffix('_reason')}: {text}" for name, text in lattice.reasons.items())
     return Advice(trials, tolerance, budget, chosen, message, needs, left_out, reasons)
 
 
 def _effects(
     trials: TrialSolves, chosen: SolvedHere | None, tolerance: float
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return what the scene needs of a model, and what is left out of the chosen one."""
+    """Return the effects that the scene needs, and the effects left out of the chosen model."""
     needs, left_out = ["bending"], ["dynamics: the question is static"]
     small = NEGLIGIBLE * tolerance
     energies = trials.reference.answer.energies
@@ -176,14 +175,14 @@ def _effects(
             needs.append(name)
         else:
             left_out.append(f"{name}: {100 * share:.1g} % of the energy")
-    linear = not trials.scene.obstacles  # which no linear model knows
-    off = trials.error(trials.row(trials.elements("plate", 4))) if linear else float("inf")
-    if off > tolerance:
+    linear = not trials.scene.obstacles  # linear models have no contact
+    error = trials.error(trials.row(trials.elements("plate", 4))) if linear else float("inf")
+    if error > tolerance:
         needs.append("large displacements")
     elif chosen is not None and (
         getattr(chosen.ask.spec, "linear", False) or chosen.ask.spec.model == "plate"
     ):
-        left_out.append(f"nonlinearity: the linear answer is {100 * off:.1g} % off")
+        left_out.append(f"nonlinearity: the linear answer is {100 * error:.1g} % off")
     if trials.scene.actuators:
         needs.append("actuators")
     return tuple(needs), tuple(left_out)

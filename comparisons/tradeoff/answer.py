@@ -1,11 +1,10 @@
-"""Models of one scene with their errors and costs, at rest and in motion: the answers of `sheetbench
-tradeoff`."""
+"""Models of a scene with errors and costs, at rest and in motion: the answers of `sheetbench tradeoff`."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Any
+from typing import Annotated, Any
 
 from comparisons.sweep import load
 from comparisons.sweep.differences import unseen
@@ -21,15 +20,12 @@ from sheetbench.scenes.language.summary import few
 
 @dataclass(frozen=True, repr=False)
 class Priced(Answer):
-    """What both trades are: rows with an error and a cost each, and the reference they are measured against.
+    """Base class of trade-offs: rows with an error and a cost each, and the reference of the errors.
+    uncertainty: of the reference, a fraction, None if unknown; reasons: sentences on automatic choices."""
 
-    uncertainty: of the reference, a fraction, None where it is not known; reasons: sentences on what was
-    chosen.
-    """
-
-    PER = ""  # what a cost is for, in words
-    COST, SIZE = ("solve time [ms], one thread", 1e3), "size of a cell or element [mm]"  # of the picture
-    SIZED_ERROR = ""  # of the picture's right side, where it is not the error at the left
+    PER = ""  # unit of work that a cost refers to, in words
+    COST, SIZE = ("solve time [ms], one thread", 1e3), "size of a cell or element [mm]"  # axes of the figure
+    SIZED_ERROR = ""  # label of the right panel's error, if it differs from the left panel's
     scene: Scene
     rows: tuple[Any, ...]
     reference: Any
@@ -38,17 +34,17 @@ class Priced(Answer):
 
     @property
     def front(self) -> list[int]:
-        """Numbers of the rows on the Pareto front of error and cost, the quickest first."""
+        """Indices of the rows on the Pareto front of error and cost, the quickest first."""
         costs = [inf if row.cost is None else row.cost for row in self.rows]
         return front([row.error for row in self.rows], costs, self.uncertainty or 0.0)
 
     @property
     def warnings(self) -> list[str]:
-        """What to hold against the times."""
+        """Warnings about unreliable times."""
         return load.warnings([row.conditions for row in self.rows], [row.samples for row in self.rows])
 
     @property
-    def known(self) -> str:
+    def uncertainty_text(self) -> str:
         """The reference's uncertainty in words."""
         return "unknown" if self.uncertainty is None else f"{few(100 * self.uncertainty)} %"
 
@@ -57,11 +53,11 @@ class Priced(Answer):
         return (drawn,) if any(row.error for row in self.rows) else ()
 
     def result(self) -> str:
-        """The quickest rows within the tolerances, or why there is none."""
+        """Return the quickest rows within the tolerances, or the reason why there is none."""
         return " ".join(self.cheapest()) or super().result()
 
     def cheapest(self) -> list[str]:
-        """A sentence for every tolerance that a row meets."""
+        """Return a sentence for every tolerance that a row meets."""
         return cheapest(
             [row.name for row in self.rows],
             [row.error for row in self.rows],
@@ -72,39 +68,39 @@ class Priced(Answer):
         )
 
 
-ORDERS = (
-    *(Column("model", prose=True), NUMBER("d", "rows"), NUMBER("z.2f", "error order")),
-    NUMBER("z.2f", "time order"),
-)
+@dataclass(frozen=True)
+class OrderRow:
+    """Observed orders of a series of models: of its error in the cell size, of its time in the unknowns."""
+
+    series: Annotated[str, Column("model", prose=True)]
+    rows: Annotated[int, NUMBER("d")]
+    error_order: Annotated[float | None, NUMBER("z.2f")]
+    time_order: Annotated[float | None, NUMBER("z.2f")]
 
 
 @dataclass(frozen=True, repr=False)
 class Tradeoff(Priced):
-    """The `TradeoffRow`s of a scene; uncertainty: None where the reference did not converge on two meshes."""
+    """The `TradeoffRow`s of a scene; uncertainty: needs a reference that converged on two meshes."""
 
     file_name = "tradeoff"
 
     @property
-    def orders(self) -> list[dict[str, Any]]:
-        """Of every family: the rows that have errors, the orders of both errors in h, of the time in the
-        unknowns."""
-        found = []
+    def orders(self) -> list[OrderRow]:
+        """Observed orders of every series, from its rows with an error."""
+        out = []
         for name, numbers in grouped([row.ask.spec.series for row in self.rows]).items():
             rows = [self.rows[i] for i in numbers if self.rows[i].error is not None]
-            sizes = [row.cell_size for row in rows]
-            unknowns = [row.known.get("unknowns") or 0 for row in rows]
-            orders = {
-                "error_order": error_order(sizes, [row.error for row in rows], self.uncertainty),
-                "time_order": order(unknowns, [row.seconds or 0.0 for row in rows]),
-            }
-            found.append({"series": name, "rows": len(rows), **orders})
-        return found
+            errors, unknowns = [row.error for row in rows], [row.known.get("unknowns") or 0 for row in rows]
+            in_size = error_order([row.cell_size for row in rows], errors, self.uncertainty)
+            in_unknowns = order(unknowns, [row.seconds or 0.0 for row in rows])
+            out.append(OrderRow(name, len(rows), in_size, in_unknowns))
+        return out
 
     @property
     def curves(self) -> dict[str, tuple[list[int], float | None]]:
-        """Row numbers and observed order of the errors, by family."""
+        """Row numbers and observed order of the errors, by series."""
         numbers = grouped([row.ask.spec.series for row in self.rows])
-        return {one["series"]: (numbers[one["series"]], one["error_order"]) for one in self.orders}
+        return {row.series: (numbers[row.series], row.error_order) for row in self.orders}
 
     def document(self) -> dict[str, Any]:
         return {
@@ -112,7 +108,7 @@ class Tradeoff(Priced):
             "scene": self.scene.document(),
             "rows": [row.as_dict() for row in self.rows],
             "front": self.front,
-            "orders": self.orders,
+            "orders": [vars(row) for row in self.orders],
             "reference": {
                 **self.reference.as_dict(),
                 "uncertainty": self.uncertainty,
@@ -124,23 +120,22 @@ class Tradeoff(Priced):
         front, costs = self.front, "Cost and error; solve: median of the repeats"
         orders = "Observed orders: of errors in the cell size, of time in the unknowns"
         rows = ((i, *row.cells(), i in front, row.status) for i, row in enumerate(self.rows))
-        families = (one.values() for one in self.orders)
         return (
             Table.listed(costs, TRADED, rows, "tradeoff"),
-            Table.listed(orders, ORDERS, families, "orders"),
+            Table.of(OrderRow, self.orders, orders, "orders"),
         )
 
     def notes(self) -> list[str]:
-        truth, left = self.reference, self.reference.model_error
-        left_out = "" if left is None else f", its model error {percent(left)}"
-        explained = (
+        truth, model_error = self.reference, self.reference.model_error
+        model_text = "" if model_error is None else f", its model error {percent(model_error)}"
+        explanation = (
             f"errors against {truth.label} ({truth.known.get('unknowns')} unknowns), whose own "
-            f"uncertainty is {self.known} (grid convergence index of n, ¾ n and ½ n elements){left_out}. "
-            "error: at the probes; field error: over the sheet. One thread; times on warm code; memory: "
-            "growth of the process."
+            f"uncertainty is {self.uncertainty_text} (grid convergence index of n, ¾ n and ½ n elements)"
+            f"{model_text}. error: at the probes; field error: over the sheet. One thread; times on warm "
+            "code; memory: growth of the process."
         )
-        seen = unseen(((row.name, row.error, row.field_error) for row in self.rows), self.uncertainty)
-        return [*self.reasons, *self.cheapest(), *seen, explained, *self.warnings]
+        larger = unseen(((row.name, row.error, row.field_error) for row in self.rows), self.uncertainty)
+        return [*self.reasons, *self.cheapest(), *larger, explanation, *self.warnings]
 
     def complaints(self) -> list[str]:
         failed = [row for row in self.rows if row.status != Status.CONVERGED]
@@ -162,12 +157,9 @@ class Tradeoff(Priced):
 
 @dataclass(frozen=True, repr=False)
 class DynamicTradeoff(Priced):
-    """A `MotionRow` per model, size, integrator and step.
-
-    lowest_period [s]: the lattice's about the flat sheet or its equilibrium, the shorter; uncertainty: of the
-    reference by its mesh and its steps; lattices: what their runs are of; step_uncertainty: of the runs that
-    errors of steps are measured against.
-    """
+    """A `MotionRow` per model, size, integrator and step. lowest_period [s]: the lattice's about the flat
+    sheet or its equilibrium, the shorter; uncertainty: of the reference due to its mesh and its steps;
+    lattices: titles of the lattices; step_uncertainty: of the reference runs of step errors."""
 
     file_name, PER = "motion", " per simulated second"
     COST, SIZE = ("solve time of a simulated second [s]", 1.0), "step [ms]"
@@ -179,19 +171,19 @@ class DynamicTradeoff(Priced):
 
     @property
     def series(self) -> dict[str, list[int]]:
-        """Row numbers by lattice and integrator, and by other model."""
+        """Row numbers by lattice and integrator, or by model."""
         return grouped([row.run if row.step_error is not None else row.model for row in self.rows])
 
     @property
     def orders(self) -> dict[str, float | None]:
-        """Observed order in the step of what the steps of a lattice miss, by series."""
-        found = {}
+        """Observed order of the step error in the step, by series."""
+        out = {}
         for name, numbers in self.series.items():
             rows = [self.rows[i] for i in numbers if self.rows[i].step_error is not None]
             if rows:
                 errors = [row.step_error for row in rows]
-                found[name] = error_order([row.step for row in rows], errors, self.step_uncertainty)
-        return found
+                out[name] = error_order([row.step for row in rows], errors, self.step_uncertainty)
+        return out
 
     @property
     def curves(self) -> dict[str, tuple[list[int], float | None]]:
@@ -219,14 +211,16 @@ class DynamicTradeoff(Priced):
         )
         front = self.front
         rows = ({**row.as_dict(), "front": i in front} for i, row in enumerate(self.rows))
-        columns = (replace(one, name=one.name or key.replace("_", " ")) for key, one in MOVED.items())
+        columns = (
+            replace(column, name=column.name or key.replace("_", " ")) for key, column in MOVED.items()
+        )
         return (Table.listed(caption, columns, ([row[key] for key in MOVED] for row in rows), "motion"),)
 
     def notes(self) -> list[str]:
         lattices = " · ".join(self.lattices)
-        of = f"{self.reference.model} with {self.reference.ask.spec.size} elements"
+        reference = f"{self.reference.model} with {self.reference.ask.spec.size} elements"
         return [
-            f"errors: at the probes, against the {of}; uncertainty of that reference: {self.known}",
+            f"errors: at the probes, against the {reference}; its uncertainty: {self.uncertainty_text}",
             *([f"{lattices}; lowest period {self.lowest_period:.4g} s"] if lattices else []),
             *self.reasons,
             *self.cheapest(),
@@ -234,13 +228,13 @@ class DynamicTradeoff(Priced):
         ]
 
     def complaints(self) -> list[str]:
-        ended = [row for row in (*self.rows, self.reference) if row.status != Status.CONVERGED]
-        return [f"{row.name}: {row.status}: {row.message}" for row in ended]
+        failed = [row for row in (*self.rows, self.reference) if row.status != Status.CONVERGED]
+        return [f"{row.name}: {row.status}: {row.message}" for row in failed]
 
     def choices(self) -> dict[str, Any]:
         return {"duration": self.duration}
 
     @property
     def succeeded(self) -> bool:
-        """Whether there is a reference to measure against."""
+        """Whether the reference has an answer for comparisons."""
         return comparable(self.reference.status, 1.0)

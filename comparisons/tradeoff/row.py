@@ -1,4 +1,4 @@
-"""Rows of a trade-off, at rest and in motion: a model, how its solve ended, its cost and errors."""
+"""Rows of a trade-off, at rest and in motion: a model, its status, cost and errors."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column("front", words=("yes", ""))
 OWN = ("label", "status", "message", "cell_size", "started", "finished", "error", "field_error")
 MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes")
-CONDITIONS = ("load_average", "machine", "worker", "versions")  # in the JSON where they are known
+CONDITIONS = ("load_average", "machine", "worker", "versions")  # in the JSON if known
 _OF_AN_ANSWER = ("load_factor", "model_error", "probes", "traceback", *CONDITIONS)
 TRADED = (
     *(NUMBER("d", "row"), Column("model", prose=True), "size", NUMBER("d", "unknowns")),
@@ -43,25 +43,24 @@ MOVED = {
 
 @dataclass(frozen=True)
 class TradeoffRow(Solved):
-    """A row of the table of solves, at rest, with its errors at the probes and over the sheet, fractions,
-    None where there is nothing to measure."""
+    """A row of the table of solves, with its errors at the probes and over the sheet, fractions if known."""
 
     error: float | None = None
     field_error: float | None = None
 
     @property
     def known(self) -> dict[str, Any]:
-        """The answer's document, its further columns and its cost in one."""
+        """The answer's document, its additional columns and its cost in one mapping."""
         return {**self.row, **self.row.get("columns", {}), **self.row.get("cost", {})}
 
     @property
     def model_error(self) -> float | None:
-        """What a reference leaves out on every mesh, a fraction."""
+        """Model error of a reference, independent of its mesh, a fraction."""
         return self.known.get("model_error")
 
     @property
     def cell_size(self) -> float | None:
-        """Size of a cell along the shorter side [m], where the settings tell."""
+        """Size of a cell along the shorter side [m], None if the settings have no size."""
         cells = _cells(self.ask.spec.settings)
         return min(self.ask.scene.sheet.lengths) / cells if cells else None
 
@@ -71,43 +70,43 @@ class TradeoffRow(Solved):
 
     @property
     def sized(self) -> tuple[float | None, float | None]:
-        """Size of a cell [m] and the error of it."""
+        """Abscissa and ordinate of a convergence plot: size of a cell [m] and error."""
         return self.cell_size, self.error
 
     @property
     def mark(self) -> str:
-        """Counts along both sides, or one where they are alike."""
+        """Label of the row's point: counts along both sides, one count if they are equal."""
         along = self.ask.spec.size.split("×")[:2]
         return along[0] if len(set(along)) == 1 else "×".join(along)
 
     @property
     def cost(self) -> float | None:
-        """What the front and the cheapest are of."""
+        """Cost of the row: its solve time [s]."""
         return self.seconds
 
     @property
     def name(self) -> str:
-        """What the row is called in sentences."""
+        """Name of the row in sentences."""
         return self.label
 
     def cells(self) -> tuple[Any, ...]:
-        """Return the values of `TRADED` between the row's number and whether it is on the front."""
+        """Return the values of `TRADED` without row number, front and status."""
         spec, known = self.ask.spec, self.known
         unknowns, iterations, setup, memory = (known.get(name) for name in MEASURED)
         times = (setup, self.seconds, min(self.samples, default=None), max(self.samples, default=None))
         return (spec.series, spec.size, unknowns, iterations, *times, memory, self.error, self.field_error)
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the row as JSON data."""
         spec, known = self.ask.spec, self.known
-        own = {name: getattr(self, name) for name in OWN} | {name: known.get(name) for name in MEASURED}
-        own |= {"model": shown_name(spec.model), "settings": spec.settings, "series": spec.series}
-        own |= {name: known[name] for name in _OF_AN_ANSWER if known.get(name) is not None}
-        return own | {"solve_seconds": {"median": self.seconds, "samples": self.samples}}
+        out = {name: getattr(self, name) for name in OWN} | {name: known.get(name) for name in MEASURED}
+        out |= {"model": shown_name(spec.model), "settings": spec.settings, "series": spec.series}
+        out |= {name: known[name] for name in _OF_AN_ANSWER if known.get(name) is not None}
+        return out | {"solve_seconds": {"median": self.seconds, "samples": self.samples}}
 
 
 def _cells(settings: Mapping[str, Any]) -> int | None:
-    """Return the number of cells along the shorter side, where settings tell."""
+    """Return the number of cells along the shorter side, None if the settings have no size."""
     for name, more in (("grid", 1), ("elements", 0)):
         if (size := settings.get(name)) is not None:
             return int(np.min(size[:2] if isinstance(size, list | tuple) else size)) - more
@@ -116,12 +115,12 @@ def _cells(settings: Mapping[str, Any]) -> int | None:
 
 @dataclass(frozen=True)
 class MotionRow(TradeoffRow):
-    """A run of a model's motion beside the reference's.
+    """A run of a model's motion with its errors.
 
-    error: the largest of the displacement's, a fraction of the reference's largest; step_error: likewise
-    against the same lattice in fine steps; period [s] and damping ratio as `comparisons.comparison.measures`
-    has them, and how far they are off: the period by a fraction, the damping by a difference. None where a
-    run has no answer, or does not swing.
+    error: largest error of the displacement, a fraction of the reference's largest; step_error: largest
+    difference from the lattice with fine steps; period [s] and damping ratio by
+    `comparisons.comparison.measures`; period_error: relative; damping_error: a difference. A value is None
+    for a run without answer or oscillation.
     """
 
     step_error: float | None = None
@@ -131,34 +130,38 @@ class MotionRow(TradeoffRow):
     damping_error: float | None = None
 
     @classmethod
-    def of(cls, found: Solved, truth: Solved, own: Solved | None = None) -> MotionRow:
-        """Return the row of a run; own: the same lattice in fine steps."""
-        history, reference = found.history, truth.history
+    def of(cls, solved: Solved, truth: Solved, fine: Solved | None = None) -> MotionRow:
+        """Return the row of a run; truth: of the reference; fine: of the lattice with fine steps."""
+        history, reference = solved.history, truth.history
         if history is None or reference is None:
-            return cls(**vars(found))
-        off, (mine, theirs) = difference(history, reference), measured_alike(history, reference)
-        fine = None if own is None else own.history
-        step_error = None if fine is None else largest(history, fine)
-        damped = None if mine.damping is None or theirs.damping is None else mine.damping - theirs.damping
-        swings = dict(
-            zip(OF_A_MOTION, (step_error, mine.period, off["period"], mine.damping, damped), strict=True)
+            return cls(**vars(solved))
+        errors, (run, true) = difference(history, reference), measured_alike(history, reference)
+        fine_history = None if fine is None else fine.history
+        damping = None if run.damping is None or true.damping is None else run.damping - true.damping
+        return cls(
+            **vars(solved),
+            error=errors["largest"],
+            step_error=None if fine_history is None else largest(history, fine_history),
+            period=run.period,
+            period_error=errors["period"],
+            damping=run.damping,
+            damping_error=damping,
         )
-        return cls(**vars(found), error=off["largest"], **swings)
 
     @property
     def step(self) -> float | None:
-        """The step [s]: fixed, or the mean of steps that keep to an error."""
+        """The step [s]: fixed, or the mean step of an error control."""
         mean = (self.ask.duration or 0.0) / self.row["steps"] if self.usable and self.row["steps"] else None
         return self.ask.run.get("step") or mean
 
     @property
     def cost(self) -> float | None:
-        """The solver's time in a simulated second."""
+        """Solver time per simulated second."""
         return self.row["solve_seconds"] / self.ask.duration if self.usable else None
 
     @property
     def integrator(self) -> str:
-        """Where there is a choice."""
+        """Name of the integrator, "" for models without a choice."""
         return str(self.ask.run.get("integrator", ""))
 
     @property
@@ -168,12 +171,12 @@ class MotionRow(TradeoffRow):
 
     @property
     def name(self) -> str:
-        """The run and its steps."""
+        """The run and its step in words."""
         return f"{self.run} with steps of {milliseconds(self.step)}" if self.step else self.run
 
     @property
     def sized(self) -> tuple[float | None, float | None]:
-        """The step [s] and what it misses."""
+        """Abscissa and ordinate of a convergence plot: step [s] and step error."""
         return self.step, self.step_error
 
     @property
@@ -181,8 +184,8 @@ class MotionRow(TradeoffRow):
         return milliseconds(self.step) if self.step else self.ask.spec.size
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        own: dict[str, Any] = {"model": self.model, "size": self.ask.spec.size, "integrator": self.integrator}
-        own |= {"step": self.step, "status": self.status, "message": self.message}
-        own |= {name: self.known.get(name) for name in OF_A_RUN} | {"seconds_per_second": self.cost}
-        return own | {"error": self.error, **{name: getattr(self, name) for name in OF_A_MOTION}}
+        """Return the row as JSON data."""
+        out: dict[str, Any] = {"model": self.model, "size": self.ask.spec.size, "integrator": self.integrator}
+        out |= {"step": self.step, "status": self.status, "message": self.message}
+        out |= {name: self.known.get(name) for name in OF_A_RUN} | {"seconds_per_second": self.cost}
+        return out | {"error": self.error, **{name: getattr(self, name) for name in OF_A_MOTION}}

@@ -1,8 +1,8 @@
-"""Error against cost: many models of one scene, measured alike, beside the finest reference.
+"""Error against cost of many models of one scene, measured in one way against the finest reference.
 
-    error        at the probes, and field_error over the sheet, as `comparisons.comparison.errors` has them
-    uncertainty  of the reference: its bar by the grid convergence index, from meshes of
-                 n, ¾ n and ½ n elements a side (`fem_reference.uncertainty`)
+    error        at the probes, and field_error over the sheet (`comparisons.comparison.errors`)
+    uncertainty  the reference's error bar by the grid convergence index, from meshes of n, ¾ n and ½ n
+                 elements per side (`fem_reference.uncertainty`)
     cost         see `comparisons.sweep.task`
 
 Orders: the slope of log error over log h, h the size of a cell, and of log time over log unknowns, over the
@@ -28,7 +28,7 @@ from comparisons.tradeoff.row import TradeoffRow
 from fem_reference.uncertainty import coarser
 from sheetbench.scenes import Scene, require_static
 
-REFERENCE_ELEMENTS = 32  # at least; twice as many as the finest shell among the rows
+REFERENCE_ELEMENTS = 32  # least number for the reference
 TRADED = ("field", "model_error")  # columns
 
 
@@ -40,14 +40,14 @@ def tradeoff(
     reference: Elements | None = None,
     repeats: int = 5,
     reasons: tuple[str, ...] = (),
-    **how: Unpack[CampaignKeywords],
+    **campaign: Unpack[CampaignKeywords],
 ) -> Tradeoff:
     """Measure every candidate on a scene, through the campaign's store.
 
-    reference: by default the shell with twice as many elements as the finest shell among the candidates, and
-    32 at least. reasons: sentences that the report shall give on the candidates.
-    Raises SceneError for a scene without a static answer and, before anything is solved,
-    BadInput for a model or setting that does not exist. A solve that fails is a row with its status.
+    reference: by default the shell with twice as many elements as the finest shell among the candidates, at
+    least 32. reasons: sentences on the candidates for the report. Raises, before the first solve, SceneError
+    for a scene without a static answer and BadInput for an unknown model or setting. A failed solve is a row
+    with its status.
     """
     require_static(scene)
     for candidate in candidates:
@@ -55,10 +55,10 @@ def tradeoff(
     fine = resolve(scene, reference or finest_shell(candidates, REFERENCE_ELEMENTS)).spec
     meshes = [Ask(scene, fine.but(count=n), columns=TRADED) for n in coarser(fine.elements)]
     asks = [Ask(scene, candidate, repeats, TRADED) for candidate in candidates]
-    found = sweep([*meshes, *asks], store, **how)
-    finer, rows = found[: len(meshes)], found[len(meshes) :]
-    truth = finer[0]
-    bar = limit(finer) if truth.usable else None
+    solved = sweep([*meshes, *asks], store, **campaign)
+    by_mesh, rows = solved[: len(meshes)], solved[len(meshes) :]
+    truth = by_mesh[0]
+    bar = limit(by_mesh) if truth.usable else None
     return Tradeoff(
         scene,
         tuple(_measured(row, truth) for row in rows),
@@ -69,7 +69,7 @@ def tradeoff(
 
 
 def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
-    """Return the shell with twice as many elements as the finest among the candidates, `least` at least."""
+    """Return the shell with twice as many elements as the finest candidate, at least `least`."""
     shells = [np.min(c.elements) for c in candidates if isinstance(c, Elements) and c.kind == "shell"]
     return Elements("shell", max([least, *(2 * int(n) for n in shells)]))
 
@@ -77,5 +77,4 @@ def finest_shell(candidates: Sequence[Spec], least: int) -> Elements:
 def _measured(row: Solved, truth: Solved) -> TradeoffRow:
     if not (row.usable and truth.usable):
         return TradeoffRow(**vars(row))
-    errors = error(row.u, truth.u), error(row.field, truth.field)
-    return TradeoffRow(**vars(row), error=errors[0], field_error=errors[1])
+    return TradeoffRow(**vars(row), error=error(row.u, truth.u), field_error=error(row.field, truth.field))

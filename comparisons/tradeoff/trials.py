@@ -1,8 +1,8 @@
-"""Trial solves of a scene that predict the error and the time of every model on this machine.
+"""Trial solves of a scene, for predictions of every model's error and time on this machine.
 
-The reference is the shell on three meshes of rising fineness, its error bar the grid convergence index, made
-finer only as long as a decision hangs on it. Times are this machine's, on warm code; those of models
-that were not solved follow t = c N^p through the two solved ones nearest in unknowns.
+The reference is the shell on three meshes, with the grid convergence index as its error bar; it is refined
+only while a decision depends on it. Times are measured on warm code; the time of a model that was not solved
+follows t = c N^p through the two solved models nearest in unknowns.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.grid import near_square
 
 MESHES = (4, 6, 8, 12, 16, 24, 32)  # elements along the shorter side
-FIRST = 3  # of them are always solved
+FIRST = 3  # number of meshes that are always solved
 CELLS = {"lumped": (2, 4, 6, 8, 12, 16, 24, 32), "plate": (2, 4, 8), "shell": (2, 3, 4, 6, 8, 12, 16, 24)}
-UNKNOWNS = {"lumped": 6.0, "plate": 20.0, "shell": 20.0}  # a cell or element
-EXPONENT = 1.1  # of time in unknowns, where one solve only is known
+UNKNOWNS = {"lumped": 6.0, "plate": 20.0, "shell": 20.0}  # per cell or element
+EXPONENT = 1.1  # of time in unknowns, for a series with one solve
 REPEATS = 3
 
 
 class TrialSolves:
-    """The rows of a scene so far, each solved once."""
+    """The trial solves of a scene so far, one per model."""
 
     def __init__(
         self,
@@ -45,9 +45,9 @@ class TrialSolves:
         lattice: Lattice = Lattice(),  # noqa: B008  # frozen
         models: Sequence[str] | None = None,
     ) -> None:
-        """lattice: springs and grading of all lattices; models: that may be chosen, all unless some are
-        named. Raises BadInput for a grid, where springs and grading are none or contradict each other, and
-        where the first references take too much memory; otherwise the larger models are left out."""
+        """Prepare trials; lattice: springs and grading of all lattices; models: names of the candidates, by
+        default all. Raises BadInput for a grid, for invalid or contradictory springs and grading, and if the
+        first references need too much memory; larger models are just left out."""
         if lattice.grid is not None:
             raise BadInput(f"grid = {counted(lattice.grid)}: is chosen here; leave it out")
         for name in models or ():
@@ -55,49 +55,49 @@ class TrialSolves:
         self.scene, self.models, self.springs = scene, models, lattice
         self.scales = scales(scene)
         self.rows: dict[Spec, SolvedHere] = {}
-        self.refused: dict[Spec, str] = {}  # and why
+        self.refused: dict[Spec, str] = {}  # with the reason
         self.meshes: list[int] = []
         self.seconds = 0.0  # of all solves
         require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
-        """Return a lattice of that many cells along the shorter side; linear: of the usual springs."""
+        """Return a lattice with `cells` along the shorter side; linear: with default springs."""
         nx, ny = near_square(self.scene.sheet, cells)
         grid = (nx + 1, ny + 1, 2)
         if linear:
             return Lattice(grid, CALIBRATION, linear=True)
-        found = self.resolved(self.springs.but(grid=grid)).spec
-        return found.but(grading=fixed(found.grading) or None)
+        spec = self.resolved(self.springs.but(grid=grid)).spec
+        return spec.but(grading=fixed(spec.grading) or None)
 
     def resolved(self, lattice: Lattice) -> Resolved[Lattice]:
-        """Return a lattice with its springs, the scene's own left aside, and the reasons for these."""
+        """Return a lattice with all choices made, without use of the scene's own [springs]."""
         return resolve(self.scene, lattice, "springs", own=False)
 
     def elements(self, kind: str, cells: int) -> Elements:
-        """Return a reference of that many elements along the shorter side."""
+        """Return a reference with `cells` elements along the shorter side."""
         return Elements(kind, near_square(self.scene.sheet, cells))
 
     def candidates(self, linear: bool) -> list[Spec]:
-        """Return what may be chosen: lattices and shells; the linear lattice and the plate where `linear`."""
+        """Return the candidates that fit into memory; linear: include linear lattices and plates."""
         specs: list[Spec] = [self.lattice(n) for n in CELLS["lumped"]]
         specs += [self.elements("shell", n) for n in CELLS["shell"]]
         if linear:
             specs += [self.lattice(n, linear=True) for n in CELLS["lumped"]]
             specs += [self.elements("plate", n) for n in CELLS["plate"]]
-        chosen = [one for one in specs if self.models is None or one.model in self.models]
-        return [one for one in chosen if has_room(self.scene, one)]
+        named = [spec for spec in specs if self.models is None or spec.model in self.models]
+        return [spec for spec in named if has_room(self.scene, spec)]
 
     def row(self, candidate: Spec, repeats: int = REPEATS) -> SolvedHere:
-        """Return the candidate's row; solved once, whoever wants it."""
+        """Return the candidate's row, solved on the first request."""
         if candidate not in self.rows:
-            began = perf_counter()
-            with threadpool_limits(1):  # as campaigns measure
+            start = perf_counter()
+            with threadpool_limits(1):  # as in campaigns
                 self.rows[candidate] = here(resolve(self.scene, candidate), repeats=repeats)
-            self.seconds += perf_counter() - began
+            self.seconds += perf_counter() - start
         return self.rows[candidate]
 
-    def tried(self, candidate: Spec) -> SolvedHere | None:
-        """Return the candidate's row, None where it is refused: a grid without a mass at a point."""
+    def try_row(self, candidate: Spec) -> SolvedHere | None:
+        """Return the candidate's row, None if refused, as for a grid without a mass at a point."""
         try:
             return self.row(candidate)
         except BadInput as reason:
@@ -105,7 +105,7 @@ class TrialSolves:
             return None
 
     def refine(self) -> bool:
-        """Solve the reference on its next mesh; return whether there was one with room, and it converged."""
+        """Solve the reference on its next mesh; return whether one was left that fits, and it converged."""
         if len(self.meshes) == len(MESHES):
             return False
         cells = MESHES[len(self.meshes)]
@@ -121,49 +121,48 @@ class TrialSolves:
 
     @property
     def uncertainty(self) -> float:
-        """Error bar of the reference, in the design's measure of error."""
+        """Error bar of the reference at the probes, a fraction."""
         finest = [self.row(self.elements("shell", cells)) for cells in self.meshes[:-4:-1]]
         bar = limit(finest) if all(row.stable for row in finest) else None
         return float("inf") if bar is None else bar.error
 
     @cached_property
     def model_error(self) -> ModelError | None:
-        """What the reference leaves out of the sheet on every mesh, by its present answer."""
+        """Model error of the reference, independent of its mesh, from its present answer."""
         return model_error(self.scene, self.reference.answer)
 
     def error(self, row: SolvedHere) -> float:
-        """Error of a row against the reference; infinite for an answer that is none."""
+        """Return the error of a row at the probes, infinite without a stable answer."""
         return (error(row.u, self.reference.u) or 0.0) if row.stable else float("inf")
 
     def field_error(self, row: SolvedHere) -> float | None:
-        """Error of a row over the sheet; None for an answer that is none."""
+        """Return the error of a row over the sheet, None without a stable answer."""
         return error(row.field, self.reference.field) if row.stable else None
 
     def predicted_seconds(self, candidate: Spec) -> float:
-        """Time of a candidate: as measured, or by the rates of its family."""
+        """Return the time of a candidate [s]: as measured, or extrapolated from its series."""
         if candidate in self.rows:
             return self.rows[candidate].seconds
-        size = unknowns(candidate)
-        alike = [row for one, row in self.rows.items() if _rate(one) == _rate(candidate)]
-        family = [(unknowns(row.ask.spec), row.seconds) for row in alike]
-        if not family:
+        size, series = unknowns(candidate), _time_series(candidate)
+        rows = [row for spec, row in self.rows.items() if _time_series(spec) == series]
+        points = [(unknowns(row.ask.spec), row.seconds) for row in rows]
+        if not points:
             return size * 1e-5
-        family.sort(key=lambda one: abs(np.log(one[0] / size)))
-        (near, seconds), exponent = family[0], EXPONENT
-        others = [one for one in family[1:] if one[0] != near]
+        points.sort(key=lambda point: abs(np.log(point[0] / size)))
+        (near, seconds), exponent = points[0], EXPONENT
+        others = [point for point in points[1:] if point[0] != near]
         if others:
             slope = np.log(seconds / others[0][1]) / np.log(near / others[0][0])
             exponent = float(np.clip(slope, 0.3, 1.6))
         return seconds * float(size / near) ** exponent
 
 
-def _rate(candidate: Spec) -> str:
-    """Return what stays the same in time as the grid is refined: graded cells take no longer than even
-    ones."""
+def _time_series(candidate: Spec) -> str:
+    """Return the series of a candidate for its time, which does not depend on the grading."""
     return (candidate.but(grading=None) if isinstance(candidate, Lattice) else candidate).series
 
 
 def unknowns(candidate: Spec) -> float:
-    """Unknowns of a candidate, about."""
+    """Return the approximate number of unknowns of a candidate."""
     nx, ny = candidate.settings.get("elements") or [n - 1 for n in candidate.settings["grid"][:2]]
     return UNKNOWNS[candidate.model] * nx * ny

@@ -1,9 +1,9 @@
-"""What a discrete sheet answers with: displacements, reactions, energies, wrenches of actuators, balance.
+"""Solution of a discrete sheet: displacements, reactions, energies, wrenches of actuators, balance.
 
 Strains are made of scalar products of positions and directors, so that internal forces on all of them cancel,
-and so do their moments, whatever the shape. What is left over is the residual of the free unknowns, which the
-solver has brought below its tolerance or to where rounding stops it, and the rounding of the sums; the loads
-are the scene's own (see `surface.balance`).
+and so do their moments, in any shape. The remaining imbalance is the residual of the free unknowns, which the
+solver has brought below its tolerance or to its rounding error, and the rounding of the sums; the loads are
+the scene's own (see `surface.balance`).
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.objects.material import limit_note
 
 EPSILON = float(np.finfo(float).eps)
-EXACT = Limits(first_reach=np.inf, farthest=np.inf, smallest_step=1.0)  # of linear sheets: one step is all
+EXACT = Limits(first_reach=np.inf, farthest=np.inf, smallest_step=1.0)  # of linear sheets: one step
 
 
 def shape_of(path: Path[StaticState, Forces]) -> SheetShape:
-    """Return the shape of a sheet at the last equilibrium of a path."""
+    """Return a sheet's shape at the last equilibrium of a path."""
     return cast(Static, path.structure).shape(path.state, path.load_factor)
 
 
@@ -50,9 +50,9 @@ class Traced(NamedTuple):
 
 
 def inspected(path: Path[StaticState, Forces]) -> Fault | None:
-    """Return why a step of a path is given up."""
-    found: Fault | None = (shape := shape_of(path)).sheet.fault(shape)
-    return found
+    """Return the fault that rejects a step of a path, if there is one."""
+    fault: Fault | None = (shape := shape_of(path)).sheet.fault(shape)
+    return fault
 
 
 def traced(
@@ -61,8 +61,9 @@ def traced(
     near: Callable[[Any], Start[StaticState]] | None = None,
     **options: Any,
 ) -> Traced:
-    """Return the run of a sheet that is made here. near: where it is to begin; options: of `trace_path`."""
-    begin = now()
+    """Return the path of a sheet that `make` builds. near: a function of the sheet that returns the path's
+    start; options: of `trace_path`."""
+    started = now()
     sheet = make()
     ready = now()
     start, slenderness = near and near(sheet), sheet.scene.sheet.thickness / sheet.lever
@@ -70,18 +71,18 @@ def traced(
     options = ({"limits": EXACT} if sheet.linear else {}) | options
     options |= {"near": start, "slenderness": slenderness}
     path = trace_path(Static(sheet), sheet.solver(), inspect, settle, **options)
-    path.factor = None  # a run is kept longer than that
-    return Traced(sheet, path, ready - begin, now() - ready)
+    path.factor = None  # not kept with the run
+    return Traced(sheet, path, ready - started, now() - ready)
 
 
 def equilibrium(sheet: DiscreteElements) -> tuple[np.ndarray, Status, list[str]]:
     """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
     path = traced(lambda: sheet).path
-    return path.state.q, *judge(path)
+    return path.state.q, *path_status(path)
 
 
-def judge(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
-    """Return status and notes of a path that has ended, strains beyond the law among them."""
+def path_status(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
+    """Return the status and notes of a path that has ended; a strain beyond the law's range changes both."""
     shape = shape_of(path)
     outside = shape.sheet.beyond(shape.stretch)
     if not outside or path.status is Status.NON_FINITE:
@@ -91,41 +92,39 @@ def judge(path: Path[StaticState, Forces]) -> tuple[Status, list[str]]:
 
 def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
     """Return the equilibrium on any flat mesh of quadrilaterals [m], of the shell also biquadratic ones.
-
-    Supports and loads act on the mesh's boundaries of their edges' names ("x0", …), which may lie
-    anywhere; of the scene's sheet only the thickness is used, and the lengths of edges with actuators.
-    """
+    Supports and loads act on the mesh's boundaries named like their edges ("x0", …), which may lie anywhere;
+    the scene's sheet contributes only its thickness, and the lengths of edges with actuators."""
     kind: Any = model
-    found = traced(lambda: kind(mesh, scene))
-    found.sheet.own = True
-    return answered(found, elements=mesh.nelements)
+    run = traced(lambda: kind(mesh, scene))
+    run.sheet.own = True
+    return answered(run, elements=mesh.nelements)
 
 
 def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
-    """Return the answer of the first of these runs, which took the others too, the last of them first.
-    settings: beside those of the sheet."""
+    """Return the solution of the first run; the other runs are its preparation, the last of them earliest.
+    settings: added to the settings of the sheet."""
     path = runs[0].path
     shape, share = shape_of(path), path.load_factor
     sheet, forces = shape.sheet, path.structure.forces(path.state, share)
-    left = max(Limits.tolerance * forces.size, path.structure.imbalance(path.state, forces))
+    imbalance = max(Limits.tolerance * forces.size, path.structure.imbalance(path.state, forces))
     if sheet.norm == 2:  # a sum of n numbers is at most √n times their norm
-        left *= np.sqrt(sheet.unknowns)
-    allowed = float(left + EPSILON * sheet.summed(shape))
-    status, notes = judge(path)
+        imbalance *= np.sqrt(sheet.unknowns)
+    allowed = float(imbalance + EPSILON * sheet.summed(shape))
+    status, notes = path_status(path)
     if status is Status.NON_FINITE and sheet.settings.get("law") == "gent":  # beyond its limit
         notes = [*notes, limit_note(sheet.scene.material)]
     residual, q = forces.residual, shape.q
     scene, surface, rods, plan = sheet.scene, sheet.surface(q), sheet.rods, sheet.plan
     edges, wrenches, line = sheet.wrenches(shape, residual)
     reactions, energies = sheet.reactions(residual, share), sheet.element.energies(shape.strain)
-    held = sheet.holding(q, residual, share)
+    holding_forces = sheet.holding(q, residual, share)
     by_items = sheet.held_by_items(shape)
     reactions |= {name: forces.sum(axis=0) for name, (_, forces) in by_items.items()}
-    held += by_items.values()
+    holding_forces += by_items.values()
     mesh = sheet.drawn(q, line if scene.actuators else None)
-    contacts = {one.name: one.report(shape) for one in sheet.contacts}
+    contacts = {run.name: run.report(shape) for run in sheet.contacts}
     if contacts:
-        energies |= {"contact": sum(one.potential(shape) for one in sheet.contacts)}
+        energies |= {"contact": sum(run.potential(shape) for run in sheet.contacts)}
         pressure = np.sum([pressure for _, pressure in contacts.values()], axis=0)
         mesh.point_data["contact_pressure"] = np.repeat(pressure, len(mesh.points) // len(pressure))
     return Solution(
@@ -137,14 +136,14 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
         mesh=mesh,
         contacts={name: state for name, (state, _) in contacts.items()},
         actuators=wrenches,
-        balance=left_over(scene, surface, edges, reactions, held, forces.size, allowed, share),
+        balance=left_over(scene, surface, edges, reactions, holding_forces, forces.size, allowed, share),
         label=sheet.label,
         settings=sheet.settings | settings,
         status=status,
-        iterations=sum(one.path.factorisations for one in runs),
-        setup_seconds=sum(one.setup_seconds for one in runs),
-        solve_seconds=sum(one.solve_seconds for one in runs),
-        history=tuple(entry for one in runs[::-1] for entry in one.path.history),
+        iterations=sum(run.path.factorisations for run in runs),
+        setup_seconds=sum(run.setup_seconds for run in runs),
+        solve_seconds=sum(run.solve_seconds for run in runs),
+        history=tuple(entry for run in runs[::-1] for entry in run.path.history),
         load_factor=share,
         snaps=tuple(path.snaps),
         fallback=fallback,

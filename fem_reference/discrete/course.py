@@ -1,7 +1,7 @@
-"""How what acts on a sheet grows: with the load factor, from 0 to 1, in statics; over time in a motion.
+"""Growth of loads and commands: with the load factor, from 0 to 1, in statics; over time in a motion.
 
-A sheet is made discrete for the one or for the other, and all that it is made of takes one number, `at`: the
-load factor or the time [s]. Statics take the last factor of every history and the last pose of every motion.
+A sheet is discretised for one of both, and all its parts take one number, `at`: the load factor or the time
+[s]. Statics take the last factor of every history and the last pose of every motion.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ Factor = Callable[[float], Any] | None  # of a time [s] or load factor; None: co
 
 
 def factor_at(factor: Factor, at: float) -> float:
-    """The factor at a time [s] or load factor."""
+    """Return the factor at a time [s] or load factor."""
     return 1.0 if factor is None else float(factor(at))
 
 
 def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
-    """Scenes with a part of the loads each, and the factor that it has: all of them in statics, in a motion
-    one by one, without their histories and without those let go at the start."""
+    """Yield scenes with a part of the loads each, and the factor of that part. Statics have one part with all
+    loads; a motion has one part a load, without their histories and without the loads let go at the start."""
     if not moving:
         yield scene, float  # the load factor itself
         return
@@ -34,14 +34,14 @@ def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
     for load in (scene.gravity, *scene.loads):
         if load is not None:
             constant = load.replace(history=None)
-            alone = {"gravity": constant} if isinstance(load, Gravity) else {"loads": (constant,)}
+            single_load = {"gravity": constant} if isinstance(load, Gravity) else {"loads": (constant,)}
             table = load.history
-            yield bare.replace(**alone), PiecewiseCurve(table.time, table.factor).at if table else None
+            yield bare.replace(**single_load), PiecewiseCurve(table.time, table.factor).at if table else None
 
 
 def commands_of(scene: Scene, moving: bool) -> tuple[Scene, list[Factor]]:
-    """A scene, and a factor of the curvature that each of its actuators has there: in motion a curvature that
-    follows a table is that table's times 1 1/m."""
+    """Return a scene, and for each of its actuators the factor of its curvature. A motion's chain with a
+    curvature table has the curvature 1 1/m in that scene, and the table as its factor."""
     if not moving:
         return scene, [float] * len(scene.actuators)  # the load factor itself
     actuators, factors = list(scene.actuators), list[Factor]()

@@ -1,4 +1,4 @@
-"""The energies of a discrete sheet in motion, and what a step dissipates and puts in."""
+"""Energies of a discrete sheet in motion, and the dissipation and work of a step."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from fem_reference.shell.element import weighed
 
 @dataclass(frozen=True)
 class SheetMotion:
-    """Coordinates, their rates, accelerations and the algorithm's (N,) at a time [s]; exerted: M a + g;
-    memory: of the material's branches."""
+    """Coordinates (N,), their rates, accelerations and the integrator's accelerations at a time [s]. exerted:
+    M a + g (N,); memory: of the material's branches."""
 
     time: float
     q: np.ndarray
@@ -25,8 +25,7 @@ class SheetMotion:
 
 
 def energies(sheet: DiscreteElements, motion: SheetMotion) -> tuple[float, float, float]:
-    """Return kinetic, elastic and potential energy [J] of a motion: of constant dead loads, and of items that
-    store it."""
+    """Return kinetic, elastic and potential energy [J] of a motion, with the energy of storing items."""
     q, v, time = motion.q, motion.v, motion.time
     shape = sheet.shape(q, time, v)
     potential = sum(item.stored(shape) for item in sheet.items)
@@ -36,8 +35,9 @@ def energies(sheet: DiscreteElements, motion: SheetMotion) -> tuple[float, float
 
 
 def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:
-    """Return energy [J] that dampers dissipate in a step, and work [J] of what moves or acts over time, (2,):
-    forces times changes, of dampers those that the step balances. late: the end's share in them."""
+    """Return (2,): the energy [J] that dampers dissipate in a step, and the work [J] of prescribed motions
+    and loads. Both are forces times changes of coordinates; dampers use the forces that the step balances.
+    late: weight of the step's end in them."""
     h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
     rate = (1.0 - late) * start.v + late * end.v
     shape = sheet.shape(middle, 0.5 * (start.time + end.time), step / h)
@@ -50,11 +50,11 @@ def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: f
     work = float(sheet.of_supports(0.5 * (start.exerted + end.exerted)) @ step)
     for body in sheet.bodies:
         damped += body.dissipated(middle, step, rate)
-        for q in (start.q, end.q):  # of commands, which bend the chains' shape at rest
+        for q in (start.q, end.q):  # work of commands, which bend the chains' shape at rest
             work += 0.5 * (body.energy(q, end.time) - body.energy(q, start.time))
     for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.natural is not None else ():
         work += 0.5 * sign * sum(sheet.elastic(sheet.shape(q, time)) for q in (start.q, end.q))
     for item in sheet.items:
-        taken, done = item.exchanged(shape)
-        damped, work = damped + h * taken, work + h * done
+        lost, gained = item.exchanged(shape)
+        damped, work = damped + h * lost, work + h * gained
     return np.array([damped, work])

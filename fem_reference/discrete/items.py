@@ -1,8 +1,7 @@
-"""What acts on a sheet: items that bring their own force and tangent, summed by one loop at rest, in motion
-and in modes.
+"""Items that act on a sheet: each brings its force and tangent, summed in statics, motion and modes.
 
-An item sees the sheet in a `SheetShape` and acts on all coordinates, or, as those of `surface.loads` do, on
-the position and director of the nodes of the plan's elements. Nothing but its class knows what it is.
+An item reads a `SheetShape` and acts on all coordinates or, like the loads of `surface.loads`, on position
+and director at the nodes of the plan's elements. No other class depends on an item's kind.
 """
 
 from __future__ import annotations
@@ -20,41 +19,41 @@ Tangent = tuple[np.ndarray, np.ndarray]  # elements (k,) of the plan, and their 
 
 
 class SheetItem(Protocol):
-    """An item. conservative: it has a potential, and so a symmetric tangent. One that inherits this leaves
-    out what has a default here."""
+    """Item with a force; other methods have defaults. conservative: it has a potential, a symmetric
+    tangent."""
 
     conservative: bool = True
 
     def force(self, shape: SheetShape) -> np.ndarray:
-        """On the coordinates (N,)."""
+        """Return the force on the coordinates (N,)."""
 
     def tangent(self, shape: SheetShape) -> Tangent | None:
-        """Derivative of the force by the surface's vectors, None of one that does not depend on them."""
+        """Return the force's derivative by the surface's vectors, None for a constant force."""
         return None
 
     def damping(self, shape: SheetShape) -> Tangent | None:
-        """That by their rates."""
+        """Return the derivative of the force by the rates of the surface's vectors."""
         return None
 
     def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Where, and with which forces (…, 3) [N], what is no load holds the sheet, by its name there."""
+        """Return places and forces (…, 3) [m], [N] with which the item holds the sheet, by name."""
         return {}
 
     def potential(self, shape: SheetShape) -> float:
-        """Of a conservative item, 0 at the flat sheet [J]."""
+        """Return the potential [J] of a conservative item, 0 at the flat sheet."""
         return 0.0
 
     def stored(self, shape: SheetShape) -> float:
-        """The part of it that a motion keeps as energy [J]; what is not kept is work."""
+        """Return the part of the potential that a motion stores as energy [J]; the rest counts as work."""
         return 0.0
 
     def exchanged(self, shape: SheetShape) -> tuple[float, float]:
-        """Power dissipated and put in [W] in a shape that moves."""
+        """Return power dissipated and power put in [W] in a moving shape."""
         return 0.0, float(self.force(shape) @ shape.v)
 
 
 class Dead(SheetItem):
-    """A force (N,) that nothing but its factor changes."""
+    """Force (N,) that depends on its factor alone."""
 
     def __init__(self, full: np.ndarray, factor: Factor):
         self._full, self._factor = full, factor
@@ -73,7 +72,7 @@ class Dead(SheetItem):
 
 
 class Following(SheetItem):
-    """A load of `surface.loads` that follows the sheet, with its factor."""
+    """Load of `surface.loads` that follows the sheet, with its factor."""
 
     def __init__(self, load: Follower, factor: Factor):
         self._load, self._factor, self.conservative = load, factor, load.conservative
@@ -98,9 +97,8 @@ class Drag(SheetItem):
         f = −∫ ½ ρ c_d |v_n| v_n N a dr ds,   a = φ,r × φ,s,   v_n = v·a/|a|,
         ∂f/∂v = −∫ ρ c_d |v_n| N N a aᵀ/|a| dr ds
 
-    It is even in a: the sense in which r, s turn does not matter. How a changes with the shape is left out of
-    the tangent. coefficient: ½ ρ c_d [kg/m³].
-    """
+    It is even in a: the orientation of r, s does not matter. The tangent neglects the change of a with the
+    shape. coefficient: ½ ρ c_d [kg/m³]."""
 
     def __init__(self, coefficient: float):
         self._coefficient = coefficient
@@ -127,7 +125,7 @@ class Drag(SheetItem):
 
 
 def _flow(shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """a (m, g, 3), |a| and v_n (m, g) at the Gauss points."""
+    """Return a (m, g, 3), |a| and v_n (m, g) at the Gauss points."""
     value, slope = AT_GAUSS
     along, across = np.einsum("agi,eic->aegc", slope, shape.vectors[:, :9])
     area = np.cross(along, across)

@@ -1,9 +1,10 @@
-"""Integrals over the part of a square where a biquadratic is positive, of all squares at once.
+"""Integrals over the part of a square where a biquadratic polynomial is positive, for all squares at once.
 
 A biquadratic q on [−1, 1]² has nine values at −1, 0, 1 along r and s (s fastest). At a given r it is a
-parabola in s, positive between or beside its roots: Gauss points there are exact. What is left is a function
-of r that is smooth between the real parts of the roots of three polynomials: of q along the two sides s = ±1,
-and of the parabola's discriminant, near which it goes with a square root that r(t) = ½ (3t − t³) takes away.
+parabola in s, positive between or outside its roots: Gauss points there are exact. The inner integral is a
+function of r, smooth between the real parts of the roots of three polynomials: of q along the two sides s =
+±1, and of the parabola's discriminant, near which it behaves as a square root that the substitution r(t) = ½
+(3t − t³) removes.
 """
 
 from __future__ import annotations
@@ -17,13 +18,13 @@ BERNSTEIN = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
 INNER, INNER_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _T, _W = np.polynomial.legendre.leggauss(14)
 OUTER, OUTER_WEIGHTS = 0.5 * (3.0 * _T - _T**3), 1.5 * (1.0 - _T**2) * _W
-LEADING = 1e-13  # of the largest coefficient, that a leading one has at least: a root more, far away
-FULL = 1e-12  # of the largest value
+LEADING = 1e-13  # least leading coefficient, relative to the largest: it adds a root far away
+FULL = 1e-12  # least value of a square that is positive all over, relative to the largest
 
 
 def roots(c: np.ndarray) -> np.ndarray:
-    """Return the real parts (e, n) of the roots of polynomials with coefficients c (e, n + 1), from the
-    constant on, no farther than [−1, 1]."""
+    """Return the real parts (e, n) of the roots of polynomials with coefficients c (e, n + 1), clipped to
+    [−1, 1]. Coefficients are in ascending order."""
     n = c.shape[1] - 1
     least = LEADING * np.abs(c).max(axis=1) + 1e-300
     leading = np.where(np.abs(c[:, -1]) < least, least, c[:, -1])
@@ -34,13 +35,13 @@ def roots(c: np.ndarray) -> np.ndarray:
 
 
 def basis(r: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Return the shares (…, 9) of the nine values in the value at r, s (…)."""
+    """Return the weights (…, 9) of the nine values in the value at r, s (…)."""
     powers = (np.stack([np.ones_like(x), x, x * x], axis=-1) @ LINE for x in (r, s))
     return np.einsum("...a,...b->...ab", *powers).reshape(*np.shape(r), 9)
 
 
 def points(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return r, s and weights (e, k) of points of the patches {q > 0} of values q (e, 9)."""
+    """Return r, s and weights (e, k) of integration points of the patches {q > 0} of values q (e, 9)."""
     c = np.einsum("ai,bj,eij->eab", LINE, LINE, q.reshape(-1, 3, 3))
     sides = [roots(c[:, :, 0] + sign * c[:, :, 1] + c[:, :, 2]) for sign in (-1.0, 1.0)]
     discriminant = np.zeros((len(q), 5))
@@ -60,36 +61,36 @@ def points(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
             np.clip(np.nan_to_num(np.stack([t / x, z / t]), nan=2.0, posinf=2.0, neginf=-2.0), -1.0, 1.0),
             axis=0,
         )
-    none = y * y <= 4.0 * x * z
+    rootless = y * y <= 4.0 * x * z
     cuts = np.stack([-np.ones_like(r), *pair, np.ones_like(r)])  # below, between and above the roots
     low, high = (
-        np.where(none, np.stack([cuts[0], cuts[3], cuts[3]]), cuts[:-1]),
-        np.where(none, cuts[3], cuts[1:]),
+        np.where(rootless, np.stack([cuts[0], cuts[3], cuts[3]]), cuts[:-1]),
+        np.where(rootless, cuts[3], cuts[1:]),
     )
     at = 0.5 * (low + high)
     inside = x * at * at + y * at + z > 0.0
     width = 0.5 * (high - low) * inside * weight
     s = at[..., None] + 0.5 * (high - low)[..., None] * INNER
     r, width = np.broadcast_to(r[..., None], s.shape), width[..., None] * INNER_WEIGHTS
-    return tuple(np.moveaxis(each, 0, 1).reshape(len(q), -1) for each in (r, s, width))  # type: ignore[return-value]
+    return tuple(np.moveaxis(values, 0, 1).reshape(len(q), -1) for values in (r, s, width))  # type: ignore[return-value]
 
 
 def integrals(q: np.ndarray, k: np.ndarray, power: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return ∫ k ⟨q⟩ᵖ/p! (e,) of values q, k (e, 9) and p = 2 or 3, and the first (e, 9) and second (e, 9, 9)
+    """Return ∫ k ⟨q⟩ᵖ/p! (e,) of values q, k (e, 9) and p = 2 or 3, and its first (e, 9) and second (e, 9, 9)
     derivatives by q."""
     out = np.zeros(len(q)), np.zeros((len(q), 9)), np.zeros((len(q), 9, 9))
     bounds = np.einsum("ai,bj,eij->eab", BERNSTEIN, BERNSTEIN, q.reshape(-1, 3, 3)).reshape(-1, 9)
     full, touched = bounds.min(axis=1) > FULL * bounds.max(axis=1), bounds.max(axis=1) > 0.0
-    r, s = (each.ravel() for each in np.meshgrid(INNER, INNER, indexing="ij"))
-    for on in (np.flatnonzero(touched & full), np.flatnonzero(touched & ~full)):
-        if len(on):
-            even = r[None], s[None], np.outer(INNER_WEIGHTS, INNER_WEIGHTS).reshape(1, -1)
-            at_r, at_s, weight = even if full[on[0]] else points(q[on])
-            share = np.broadcast_to(basis(at_r, at_s), (len(on), at_r.shape[1], 9))
-            d = np.maximum((share @ q[on][..., None])[..., 0], 0.0)
-            weight = weight * (share @ k[on][..., None])[..., 0]
+    r, s = (axis.ravel() for axis in np.meshgrid(INNER, INNER, indexing="ij"))
+    for rows in (np.flatnonzero(touched & full), np.flatnonzero(touched & ~full)):
+        if len(rows):
+            uniform = r[None], s[None], np.outer(INNER_WEIGHTS, INNER_WEIGHTS).reshape(1, -1)
+            at_r, at_s, weight = uniform if full[rows[0]] else points(q[rows])
+            share = np.broadcast_to(basis(at_r, at_s), (len(rows), at_r.shape[1], 9))
+            d = np.maximum((share @ q[rows][..., None])[..., 0], 0.0)
+            weight = weight * (share @ k[rows][..., None])[..., 0]
             first, second = (d, 1.0) if power == 2 else (0.5 * d * d, d)
-            out[0][on] = (weight * first * d).sum(axis=1) / power
-            out[1][on] = ((weight * first)[:, None] @ share)[:, 0]
-            out[2][on] = share.swapaxes(1, 2) @ ((weight * second)[..., None] * share)
+            out[0][rows] = (weight * first * d).sum(axis=1) / power
+            out[1][rows] = ((weight * first)[:, None] @ share)[:, 0]
+            out[2][rows] = share.swapaxes(1, 2) @ ((weight * second)[..., None] * share)
     return out

@@ -1,4 +1,4 @@
-"""The chains of a sheet: the elastic rods of `surface.rod` with their inertia, dampers and commands.
+"""Chains of a sheet: the elastic rods of `surface.rod` with their inertia, dampers and commands.
 
     e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀,     energy ½ Σ S (e − λ e₀)²,     δe = B δQ,  B = H Q
     ½ ρ_l ∫ |φ̇ + c ḋ|² + ¼ a² (|ḋ|² + |ṁ|²) ds,     s = S (e − e₀) + τ S_elastic ė
@@ -7,17 +7,17 @@ with Q the vectors of a side of the edge, e₀ the intrinsic curvature and λ th
 its tangent Bᵀ S B + Σ s H.
 
 A chain's cross-section is round, of radius a; c is the height of its axis, τ its `damping_time`, which acts
-on what bends freely alone. e₀ follows the command; its change is work. The solid's third director t has
+on its free bending alone. e₀ follows the command; its change is work. The solid's third director t has
 `LIGHT` of the inertia of the others, so that the mass is regular.
 
-On the linear plate strains are those about the flat sheet, B q. With s along the edge, t outwards, tilt β and
-the axis at the height c they are, per length,
+On the linear plate strains are linear about the flat sheet, B q. They are, per length, with s along the edge,
+t outwards, tilt β and the axis at the height c,
 
     axial u_s,s + c β_s,s    shear w,s + β_s    aside u_t,s + c β_t,s + m_s    twist β_t,s    square β_t + m_z
     bending −β_s,s out of the plane, −m_s,s in it
 
-so that a rod off the mid-surface couples bending and membrane, as it should; what the initial moment EI κ₀
-does as the rod deflects is of second order.
+so that a rod off the mid-surface couples bending and membrane, as it should; the effect of the initial moment
+EI κ₀ on a deflected rod is of second order.
 """
 
 from __future__ import annotations
@@ -40,11 +40,9 @@ BENT = {"normal": (NORMAL,), "inplane": (INPLANE,), "spatial": (NORMAL, INPLANE)
 
 
 class Rods:
-    """The rods of a scene's chains among the coordinates (N,) of a sheet.
-
-    bound: to the sheet's vectors; size: N; commands: the curvatures' factors; places: of φ, d, m (9,) in Q;
-    linear: strains are those about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q.
-    """
+    """The rods of a scene's chains among the coordinates (N,) of a sheet. bound: rods bound to the sheet's
+    vectors; size: N; commands: the curvatures' factors; places: of φ, d, m (9,) in Q; linear: strains are
+    linear about the flat sheet. rows: coordinates (k, 3 a) of the sides' Q."""
 
     def __init__(
         self,
@@ -66,33 +64,33 @@ class Rods:
         self._viscous = self._dampers()
 
     def weight(self, scene: Scene) -> np.ndarray:
-        """Dead forces (k, a, 3) on the sides' vectors of the chains under a scene's gravity."""
+        """Return dead forces (k, a, 3) of a scene's gravity on the sides' vectors."""
         acceleration = np.zeros(3) if scene.gravity is None else scene.gravity.last_acceleration
         return np.multiply.outer(self._mass[:, :, self._line].sum(axis=2), acceleration)
 
     def mass(self) -> csr_matrix:
-        """The rods' mass (N, N)."""
+        """Return the rods' mass (N, N)."""
         return Pattern(self.rows, size=self._size).matrix(_by_axis(self._mass))
 
     def stress(self, shape: SheetShape) -> np.ndarray:
-        """Elastic and viscous stresses (k, s)."""
+        """Return elastic and viscous stresses (k, s)."""
         change = self.gather(shape.q)
         rate = 0.0 if shape.v is None else self._step(self._gradient(change), shape.v)
         off = self._strain(change) - self._intrinsic(shape.at)
         return self.elements.stiffness * off + self._viscous * rate
 
     def pull(self, q: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Bᵀ s (k, a, 3) on the sides' vectors at q (N,)."""
+        """Return Bᵀ s (k, a, 3) on the sides' vectors at q (N,)."""
         return np.einsum("es,esic->eic", stress, self._gradient(self.gather(q)))
 
     def extrapolated(self, shape: SheetShape, stress: np.ndarray, move: np.ndarray) -> np.ndarray:
-        """Stresses (k, s) linear in a step (N,) from a shape with these."""
+        """Return stresses (k, s) linear in a step (N,) from a shape with stresses `stress`."""
         return stress + self.elements.stiffness * self._step(self._gradient(self.gather(shape.q)), move)
 
     def tangent(
         self, shape: SheetShape, stress: np.ndarray, by_a: float = 0.0, by_v: float = 0.0
     ) -> np.ndarray:
-        """by_a M + by_v C + K of the sides under stresses, (k, 3 a, 3 a)."""
+        """Return by_a M + by_v C + K (k, 3 a, 3 a) of the sides under stresses."""
         gradient, stiff = self._gradient(self.gather(shape.q)), self.elements.stiffness + by_v * self._viscous
         flat, form = gradient.reshape(*stiff.shape, 3 * gradient.shape[2]), by_a * self._mass
         if not self._linear:
@@ -100,30 +98,30 @@ class Rods:
         return flat.swapaxes(1, 2) @ (stiff[:, :, None] * flat) + _by_axis(form)
 
     def inertial(self, a: np.ndarray) -> np.ndarray:
-        """M a of accelerations (N,) on the sides' vectors, (k, a, 3)."""
-        found: np.ndarray = np.einsum("eij,ejc->eic", self._mass, self.gather(a))
-        return found
+        """Return M a (k, a, 3) of accelerations (N,) on the sides' vectors."""
+        forces: np.ndarray = np.einsum("eij,ejc->eic", self._mass, self.gather(a))
+        return forces
 
     def driving(self, shape: SheetShape) -> np.ndarray:
-        """Force of the commands on the sides' vectors (k, a, 3)."""
+        """Return the force of the commands on the sides' vectors (k, a, 3)."""
         return self.pull(shape.q, self.elements.stiffness * self._intrinsic(shape.at))
 
     def energy(self, q: np.ndarray, at: float) -> float:
-        """Strain energy [J] from the shape that the commands ask for."""
+        """Return the strain energy [J], zero in the shape that the commands prescribe."""
         off = self._strain(self.gather(q)) - self._intrinsic(at)
         return 0.5 * float(np.sum(self.elements.stiffness * off**2))
 
     def dissipated(self, q: np.ndarray, step: np.ndarray, rate: np.ndarray) -> float:
-        """Δeᵀ τ S ė [J] of a step and a rate (N,) at q."""
+        """Return Δeᵀ τ S ė [J] of a step and a rate (N,) at q."""
         gradient = self._gradient(self.gather(q))
         return float(np.sum(self._viscous * self._step(gradient, step) * self._step(gradient, rate)))
 
     def magnitudes(self, q: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Σ |B| |s| (k, a, 3), what forces on the sides' vectors are sums of."""
+        """Return Σ |B| |s| (k, a, 3), the magnitudes of the terms of forces on the sides' vectors."""
         return np.einsum("es,esic->eic", np.abs(stress), np.abs(self._gradient(self.gather(q))))
 
     def dragged(self, shape: SheetShape, drag: float) -> Rods:
-        """Rods of stresses (1 + σ) S e − σ S e_n − S e₀: a step of creep from strains e_n of a shape."""
+        """Return rods of stresses (1 + σ) S e − σ S e_n − S e₀, a step of creep from a shape's e_n."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)
         stiffness, intrinsic = (1.0 + drag) * self.elements.stiffness, past[..., None] / (1.0 + drag)
@@ -132,28 +130,28 @@ class Rods:
         return slow
 
     def gather(self, q: np.ndarray) -> np.ndarray:
-        """The sides' vectors (k, a, 3) of coordinates (N,)."""
+        """Return the sides' vectors (k, a, 3) from coordinates (N,)."""
         return q[self.rows].reshape(self.elements.reference.shape)
 
     def scatter(self, of_sides: np.ndarray) -> np.ndarray:
-        """Sums (N,) of the sides' (k, a, 3)."""
+        """Return sums (N,) of forces (k, a, 3) on the sides."""
         return np.bincount(self.rows.ravel(), of_sides.ravel(), self._size)
 
     def directors(self, q: np.ndarray) -> np.ndarray:
-        """d of the sides' nodes (k, 3, 3)."""
+        """Return d (k, 3, 3) at the sides' nodes."""
         return self._vectors(self.gather(q))[:, self._directors]
 
     def _gradient(self, change: np.ndarray) -> np.ndarray:
-        """B = H Q (k, s, a, 3) at Q₀ + change (k, a, 3)."""
+        """Return B = H Q (k, s, a, 3) at Q₀ + change (k, a, 3)."""
         return np.einsum("esij,ejc->esic", self.elements.forms, self._vectors(change))
 
     def _vectors(self, change: np.ndarray) -> np.ndarray:
-        """Q (k, a, 3) that strains are formed about."""
+        """Return Q (k, a, 3) about which strains are formed."""
         return self.elements.reference + (0.0 if self._linear else change)
 
     def _step(self, gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
-        found: np.ndarray = np.einsum("esic,eic->es", gradient, self.gather(step))
-        return found
+        strain: np.ndarray = np.einsum("esic,eic->es", gradient, self.gather(step))
+        return strain
 
     def _strain(self, change: np.ndarray) -> np.ndarray:
         return np.einsum("esic,eic->es", self._gradient(0.5 * change), change)
@@ -162,7 +160,7 @@ class Rods:
         return self.elements.intrinsic @ [factor_at(factor, at) for factor in self._commands]
 
     def _dampers(self) -> np.ndarray:
-        """τ S of what bends freely, (k, s); chains on one edge by their stiffness."""
+        """Return τ S (k, s) of free bending; chains on one edge are weighted by their stiffness."""
         stiffness, out = self.elements.stiffness, np.zeros_like(self.elements.stiffness)
         for rod, on in zip(self.bound.rods, self.bound.by_rod(np.arange(len(out))), strict=True):
             chains = rod.chains.values()
@@ -173,7 +171,7 @@ class Rods:
         return out
 
     def _side_masses(self, scene: Scene, places: np.ndarray) -> np.ndarray:
-        """Mass of the sides' vectors, (k, a, a)."""
+        """Return the mass (k, a, a) of the sides' vectors."""
         k, a = self.elements.reference.shape[:2]
         out, third = np.zeros((k, a, a)), np.arange(places[-1] + 1, a)
         for rod, on in zip(self.bound.rods, self.bound.by_rod(np.arange(k)), strict=True):
@@ -189,6 +187,6 @@ class Rods:
 
 
 def _by_axis(of_vectors: np.ndarray) -> np.ndarray:
-    """Matrices of vectors (k, a, a), the same of each component, (k, 3 a, 3 a)."""
+    """Return matrices (k, 3 a, 3 a) of components, from matrices (k, a, a) of vectors."""
     k, a = of_vectors.shape[:2]
     return np.einsum("eij,cd->eicjd", of_vectors, np.eye(3)).reshape(k, 3 * a, 3 * a)

@@ -1,4 +1,4 @@
-"""A discrete sheet in a shape: what its forces, its tangent and its loads need, each formed once."""
+"""Discrete sheet in a shape: the quantities that forces, tangent and loads share, each formed once."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from sheetbench.scenes.objects.relaxation import BranchStep
 
 
 class SheetShape:
-    """Coordinates q and rates v (N,), 0 where None, of a sheet (`discrete.sheet`), at a load factor or time
-    [s] `at`; branches: the step of its Maxwell branches that ends there."""
+    """Coordinates q and rates v (N,), zero where None, of a sheet (`discrete.sheet`) at `at`, a load factor
+    or time [s]. branches: the step of its Maxwell branches that ends there."""
 
     def __init__(
         self,
@@ -32,17 +32,17 @@ class SheetShape:
 
     @cached_property
     def rates(self) -> Any:
-        """Their rates (m, 18, 3)."""
+        """Rates (m, 18, 3) of `vectors`."""
         return self.sheet.surface_change(np.zeros_like(self.q) if self.v is None else self.v)
 
     @cached_property
     def frame(self) -> Any:
-        """What Z, δq = Z x, is made of."""
+        """Data of the matrix Z, δq = Z x."""
         return self.sheet.frame(self.q, self.at)
 
     @cached_property
     def stretch(self) -> Any:
-        """How far the sheet is strained, as its `beyond` takes it."""
+        """Measure of the strain for the sheet's `beyond`."""
         return self.sheet.stretch(self)
 
     # of a sheet of elements whose strains are quadratic in the coordinates
@@ -54,12 +54,12 @@ class SheetShape:
 
     @cached_property
     def operator(self) -> Any:
-        """What the elements' B is made of."""
+        """Data of the elements' B."""
         return self.sheet.element.operator(self.change)
 
     @cached_property
     def strain(self) -> Any:
-        """(m, k), from the sheet's natural state."""
+        """Strain (m, k) from the sheet's natural state."""
         return self.sheet.strain(self.change, self.at)
 
     @cached_property

@@ -1,13 +1,13 @@
-"""Statics of a discrete sheet: at rest, with its load factor in place of the time, as the path tracer has it.
+"""Statics of a discrete sheet for the path tracer: at rest, with the load factor in place of the time.
 
-With R = Bᵀ s − λ f the residual on all coordinates, a step goes to equilibrium and onto what is prescribed,
+A step of Newton's method goes to equilibrium and to the prescribed displacements,
 
     Zᵀ K Z x = −Zᵀ (R + K δ),    q + δ + Z x,
 
-with δ the step to prescribed values and constraints. All of strain, load and constraint being polynomials in
-q, it is Newton's; `mixed` takes the stresses that the last step extrapolated, s + D B δq, for the geometric
-stiffness and the constraints' own (see `continuation.trace`), and of bricks the extrapolated pressure: near
-ν = ½ the current one is a large error until volumes fit.
+R = Bᵀ s − λ f is the residual on all coordinates, δ the step to prescribed values and constraints; strain,
+load and constraint are polynomials in q. `mixed` takes the stresses that the last step extrapolated, s + D B
+δq, for the geometric stiffness and the constraints' own (see `continuation.trace`), and of bricks the
+extrapolated pressure: near ν = ½ the current pressure has a large error until volumes fit.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ OnRods = tuple[np.ndarray, ...]
 
 @dataclass(frozen=True)
 class StaticState:
-    """q (N,); extrapolated: stress (m, k) of the elements, their pressure, where the law has one of its own,
-    and stresses (k, s) of the rods; the sheet's own where None."""
+    """Coordinates q (N,) with extrapolated stresses, or without, where the stresses of q itself count. stress
+    (m, k) of the elements; pressure, where the law has one of its own; on_rods (k, s) of the rods."""
 
     q: np.ndarray
     stress: np.ndarray | None = None
@@ -38,8 +38,8 @@ class StaticState:
 
 @dataclass(frozen=True)
 class Forces:
-    """At a state: its shape, stresses (k, s) of the rods, residual (N,), size of the forces that balance [N],
-    and the step (N,) to what is prescribed."""
+    """Forces of a state: shape, stresses (k, s) of the rods, residual (N,). size: of the balancing forces
+    [N]; short: the step (N,) to the prescribed displacements."""
 
     shape: SheetShape
     on_rods: OnRods
@@ -49,7 +49,7 @@ class Forces:
 
 
 class Static(Creeping[StaticState, Forces]):
-    """A sheet of elements, ready for `trace_path`."""
+    """Sheet of elements, ready for `trace_path`."""
 
     def __init__(self, sheet: DiscreteElements):
         self.sheet, self.prestrained = sheet, sheet.natural is not None
@@ -59,13 +59,13 @@ class Static(Creeping[StaticState, Forces]):
         self._last: SheetShape | None = None
 
     def shape(self, state: StaticState, load_factor: float) -> SheetShape:
-        """The sheet at a state, one and the same for all who look at that in turn."""
+        """Return the sheet at a state; a repeated call returns the shape already formed."""
         if (last := self._last) is None or last.q is not state.q or last.at != load_factor:
             self._last = last = self.sheet.shape(state.q, load_factor)
         return last
 
     def rest(self) -> StaticState:
-        """Flat, and free of stress where nothing acts on it."""
+        """Return the flat state, free of stress where nothing acts on it."""
         return StaticState(np.zeros(self.sheet.size))
 
     def unextrapolated(self, state: StaticState) -> StaticState:
@@ -100,11 +100,11 @@ class Static(Creeping[StaticState, Forces]):
         return Forces(shape, on_rods, residual, size, sheet.short(shape))
 
     def imbalance(self, state: StaticState, forces: Forces) -> float:
-        left = self.sheet.reduce(forces.shape, forces.residual / self.sheet.scale)
-        return float(np.linalg.norm(left, self.sheet.norm))
+        reduced = self.sheet.reduce(forces.shape, forces.residual / self.sheet.scale)
+        return float(np.linalg.norm(reduced, self.sheet.norm))
 
     def gap(self, state: StaticState, load_factor: float) -> float:
-        """Largest distance from what is prescribed, relative to the sheet's size, or change of a director."""
+        """Return the largest distance from prescribed displacements over the sheet's size."""
         step = self.sheet.short(self.shape(state, load_factor)) * self.sheet.scale
         return float(np.abs(step).max() / self.sheet.lever)
 
@@ -115,10 +115,10 @@ class Static(Creeping[StaticState, Forces]):
         stress, on_rods, pressure = shape.elastic, forces.on_rods, None
         if mixed and state.stress is not None:
             stress, on_rods, pressure = state.stress, state.on_rods, state.pressure
-            # of constraints: under the residual that these stresses leave
+            # the constraints' stiffness uses the residual of the extrapolated stresses
             residual = residual + sheet.scatter(sheet.element.forces(shape.operator, stress - shape.elastic))
-            for body, own, now in zip(sheet.bodies, on_rods, forces.on_rods, strict=True):
-                residual += body.scatter(body.pull(shape.q, own - now))
+            for body, extrapolated, current in zip(sheet.bodies, on_rods, forces.on_rods, strict=True):
+                residual += body.scatter(body.pull(shape.q, extrapolated - current))
         moduli, move = sheet.moduli(shape, pressure), forces.short if forces.short.any() else None
         matrix, product = sheet.system(shape, moduli, stress, on_rods, residual, move=move)
         return matrix, -sheet.reduce(shape, forces.residual + product)
@@ -130,7 +130,7 @@ class Static(Creeping[StaticState, Forces]):
         move = sheet.expand(shape, step) + forces.short
         by = sheet.element.step(shape.operator, sheet.gather(move))
         rods = zip(sheet.bodies, forces.on_rods, strict=True)
-        on_rods = tuple(body.extrapolated(shape, own, move) for body, own in rods)
+        on_rods = tuple(body.extrapolated(shape, stress_before, move) for body, stress_before in rods)
         stress = shape.elastic + weighed(sheet.moduli(shape, state.pressure), by)
         return StaticState(state.q + move, stress, sheet.pressure(shape, by), on_rods)
 

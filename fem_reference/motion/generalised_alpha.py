@@ -1,13 +1,14 @@
-"""Generalised-α of a reference (`sheetbench.numerics.time.rule`), its step by the error.
+"""Generalised-α of a reference (`sheetbench.numerics.time.rule`), its step controlled by the error.
 
-Equilibrium at a step's end is M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁). Where a motion changes velocities at once a step
-ends, they pass their impulse on, and the next begins with new accelerations.
+Equilibrium at a step's end is M a₁ + g(q₁, v₁, t₁) ⊥ Z(q₁). A step ends where a prescribed velocity jumps;
+its impulse is passed on to the free unknowns, and the next step begins with new accelerations.
 
-Behind such a jump dampers slow the shortest waves faster than any step resolves: the rule would answer with
-swings of their strains that fall by ρ a step, and dampers would seem to take many times the energy there is.
-So the first steps there are backward Euler's, q₁ = q₀ + h v₁ and v₁ = v₀ + h a₁, which swing at no length,
-from one so short that it takes `TAKEN` of the kinetic energy on, until their local error, ½ h² |a₁|, no
-longer lets them double. As Rannacher 1984 (Numer. Math. 43, 309–327) begins Crank and Nicolson's rule.
+Just after a jump dampers slow the shortest waves faster than any step resolves: the rule would answer with
+oscillations of their strains that fall by ρ a step, and dampers would seem to dissipate many times the
+energy. So the first steps after it are backward Euler's, q₁ = q₀ + h v₁ and v₁ = v₀ + h a₁, which never
+oscillate. The first one is so short that it dissipates `TAKEN` of the kinetic energy; they go on until their
+local error, ½ h² |a₁|, no longer lets them double. Rannacher 1984 (Numer. Math. 43, 309–327) begins Crank and
+Nicolson's rule in this way.
 """
 
 from __future__ import annotations
@@ -32,12 +33,12 @@ ERROR = 1e-5  # of a step, relative to the largest displacement so far
 SOLVED = 1e-3  # last correction, relative to the error allowed
 ROUNDED = 1e-13  # correction, relative to the displacement
 CORRECTIONS = 12
-QUICK = 0.1  # a correction's share of the one before, up to which factors are kept
-FRACTION = 1.0 / 64.0  # of a fixed step, that it is divided into where it fails
-LEAST = 1e-8  # of the sheet's longer side: no displacement counts as smaller
+QUICK = 0.1  # ratio of successive corrections up to which factors are kept
+FRACTION = 1.0 / 64.0  # smallest part of a fixed step that fails
+LEAST = 1e-8  # smallest displacement that counts, relative to the sheet's longer side
 SMALLEST = 1e-9  # step, relative to the run
-EULER = 2  # steps behind a jump whose length does not double
-TAKEN = 1e-3  # of the kinetic energy, that the first of them may take
+EULER = 2  # steps after a jump whose length does not double
+TAKEN = 1e-3  # share of the kinetic energy that the first of them may dissipate
 
 
 class Sampled(NamedTuple):
@@ -51,10 +52,8 @@ class Sampled(NamedTuple):
 
 class ConstrainedAlpha(MotionMethod[SheetMotion]):
     """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
-
-    adapts, span, kinks: as `sheetbench.numerics.time.method` has them; with chains, whose firm stiffnesses
-    make much energy of the small strains that a cubic within a step leaves, steps end at samples.
-    """
+    adapts, span, kinks: of `sheetbench.numerics.time.method`. Steps end at samples of a sheet with chains:
+    their firm stiffnesses make much energy of the small strains that a cubic within a step leaves."""
 
     state, remembered = SheetMotion, ("_before", "_largest", "_local", "_euler")
     control: Controller
@@ -74,38 +73,37 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         self._euler = 0  # steps to come by backward Euler
 
     def forget(self) -> None:
-        """Drop the factors, so that a resumed run goes on exactly as one never stopped."""
+        """Drop the factors, so that a resumed run goes on exactly like an uninterrupted one."""
         self._factor = None
 
     def start(self) -> Advance[SheetMotion]:
-        """Return the motion at t = 0, with the work of what moves at once."""
+        """Return the motion at t = 0, with the work of prescribed velocities that jump there."""
         q = start(self._model)
         return self.begin(0.0, q, np.zeros_like(q))
 
     def _reach(self, change: np.ndarray) -> float:
-        """The largest component of the nodes' displacements in a change (N,) of the coordinates."""
+        """Return the largest component of the nodes' displacements in a change (N,) of the coordinates."""
         return float(np.abs(self._model.displacement(change)).max())
 
     def _branches(self, motion: SheetMotion, time: float) -> BranchStep | None:
-        """The step of the branches from a motion to a time [s], if there are any."""
+        """Return the step of the branches from a motion to a time [s], if there are any."""
         branches = self._model.branches
         return branches.step(motion.memory, time - motion.time) if branches.times else None
 
     def go(self, motion: SheetMotion, at_most: float) -> Advance[SheetMotion]:
-        """Return a step, begun anew where what is prescribed changes its velocity at once. Raises
-        StepFailed."""
+        """Return a step; it begins anew where a prescribed velocity jumps. Raises StepFailed."""
         model, work = self._model, 0.0
         for kink in self.kinks[np.abs(self.kinks - motion.time) < 1e-9 * self.kinks].tolist():
             if model.jumps(kink):
                 branches = self._branches(motion, kink)
-                begun = self.begin(kink, model.placed(motion.q, kink), motion.v, branches)
-                motion, work = begun.state, begun.work
+                restart = self.begin(kink, model.placed(motion.q, kink), motion.v, branches)
+                motion, work = restart.state, restart.work
         after = self.advance(motion, at_most)
         self._step = motion, spent(model, motion, after, 1.0 - self._rule.af), work
         return Advance(after, float(self._step[1][0]), work + float(self._step[1][1]))
 
     def at(self, times: np.ndarray, last: Advance[SheetMotion]) -> Sampled:
-        """Return the motions at times (k,) [s] within the last step; energies since it began."""
+        """Return the motions at times (k,) [s] within the last step, with energies since it began."""
         end = last.state
         if end.time == times[0]:
             return Sampled(times, [end], np.array([last.dissipated]), np.array([last.work]))
@@ -116,20 +114,19 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         return Sampled(times, motions, share * spent[0], work + share * spent[1])
 
     def _remembered(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
-        """The memory (1 + b, 2, m) at the end of a step of the branches, at rest without one: elastic
-        stresses and strains, and the branches' parts of them; empty without branches."""
-        own, shape = self._model.branches, self._model.shape(q, 1.0)
-        if not own.times:
+        """Return the memory (1 + b, 2, m) at the end of a step of the branches: stresses, strains and the
+        branches' parts. Without a step it is the memory at rest; without branches it is empty."""
+        material_branches, shape = self._model.branches, self._model.shape(q, 1.0)
+        if not material_branches.times:
             return np.zeros(0)
         x = np.stack([part.ravel() for part in (shape.elastic, shape.strain)])
-        return own.at_rest(x) if branches is None else branches.after(x)
+        return material_branches.at_rest(x) if branches is None else branches.after(x)
 
     def begin(
         self, time: float, q: np.ndarray, v: np.ndarray, branches: BranchStep | None = None
     ) -> Advance[SheetMotion]:
-        """The motion from a time on, its velocities as motions have them and with the accelerations of its
-        forces, and the work of what changes its velocity at once. branches: their step until then; at rest
-        without one."""
+        """Return the motion from a time on, with prescribed velocities, accelerations of its forces, and the
+        work of jumps. branches: their step until then; at rest without one."""
         model = self._model
         basis = model.basis(q)
         rate = model.rate_placed(q, v, time)
@@ -140,19 +137,19 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         a = a - basis @ factor.solve(basis.T @ (model.mass @ a + forces))
         self._before, self._factor = 0.0, None
         self._euler = EULER if np.any(rate != v) else 0
-        before, after, taken = (float(u @ (model.mass @ u)) for u in (v, rate, a))  # twice kinetic energies
+        before, after, lost = (float(u @ (model.mass @ u)) for u in (v, rate, a))  # twice kinetic energies
         if self.adapts:
             allowed = 2.0 * self._error * self._largest
             steps = [self._first, np.sqrt(allowed / max(self._reach(a), 1e-30))]
-            if self._euler:  # h² times half of `taken`
-                steps.append(np.sqrt(TAKEN * max(before, after) / max(taken, 1e-30)))
+            if self._euler:  # its first step dissipates ½ h² `lost`
+                steps.append(np.sqrt(TAKEN * max(before, after) / max(lost, 1e-30)))
             self.control.step = min(steps)
         memory = self._remembered(q, branches)
         motion = SheetMotion(time, q, rate, a, a, model.mass @ a + forces, memory)
         return Advance(motion, 0.0, 0.5 * (after - before))
 
     def advance(self, motion: SheetMotion, at_most: float) -> SheetMotion:
-        """One step of at most so long [s]. Raises StepFailed."""
+        """Return the motion after one step of at most `at_most` [s]. Raises StepFailed."""
         control, largest = self.control, self._largest
         self._rule = rule = BACKWARD_EULER if self._euler else self._usual
         control.order = rule.order
@@ -178,8 +175,8 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         return after
 
     def _advanced(self, motion: SheetMotion, h: float, step: AlphaStep) -> SheetMotion:
-        """The end of a step of h [s] by Newton's iteration, factors kept as long as corrections shrink to the
-        share `QUICK`. Raises StepFailed, SingularMatrixError."""
+        """Return the end of a step of h [s] by Newton's iteration, with factors kept while corrections shrink
+        to `QUICK`. Raises StepFailed, SingularMatrixError."""
         model, time = self._model, motion.time + h
         branches = self._branches(motion, time)
 
@@ -188,34 +185,34 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
             exerted = model.mass @ a + model.forces(model.shape(q, time, v, branches))
             return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
-        found = at(model.placed(step.guess, time))
-        largest = max(self._largest, self._reach(found.q))
-        enough = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
+        end = at(model.placed(step.guess, time))
+        largest = max(self._largest, self._reach(end.q))
+        tolerance = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:
             self._factor = None
         last = 0.0
         for _ in range(CORRECTIONS):
-            basis = model.basis(found.q)
+            basis = model.basis(end.q)
             if self._factor is None:
-                shape = model.shape(found.q, time, found.v, branches)
-                matrix = model.tangent(shape, found.exerted, step.by_a, step.by_v)
+                shape = model.shape(end.q, time, end.v, branches)
+                matrix = model.tangent(shape, end.exerted, step.by_a, step.by_v)
                 self._factor, self._taken = self._solver.factor(matrix), h
-            move = basis @ self._factor.solve_unrefined(-(basis.T @ found.exerted))
+            move = basis @ self._factor.solve_unrefined(-(basis.T @ end.exerted))
             length = self._reach(move)
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")
-            found = at(model.moved(found.q, move))
-            share = length / last if last else 1.0
-            if length * min(share, 1.0) <= enough:
-                return replace(found, memory=self._remembered(found.q, branches)) if branches else found
-            if last and share > QUICK:
+            end = at(model.moved(end.q, move))
+            ratio = length / last if last else 1.0
+            if length * min(ratio, 1.0) <= tolerance:
+                return replace(end, memory=self._remembered(end.q, branches)) if branches else end
+            if last and ratio > QUICK:
                 self._factor = None
             last = length
         raise StepFailed("the corrections do not shrink")
 
 
 def between(start: SheetMotion, end: SheetMotion, time: float) -> SheetMotion:
-    """The motion within a step: coordinates cubic in time, all else linear."""
+    """Return the motion within a step: coordinates cubic in time, all else linear."""
     h = end.time - start.time
     s = min((time - start.time) / h, 1.0)
     if s == 1.0:

@@ -1,5 +1,4 @@
-"""What a run says of its samples: energies, probes, reactions and forces of actuators as rows of numbers;
-strains, and elements that turn inside out."""
+"""Observer of a reference's run: energies, probes, reactions and actuators' forces as rows, and strains."""
 
 from __future__ import annotations
 
@@ -15,7 +14,7 @@ from sheetbench.scenes import Scene
 
 
 class ReferenceObserver:
-    """The observer (`sheetbench.runs.run`) of a reference."""
+    """Observer (`sheetbench.runs.run`) of a reference."""
 
     least_energy = 0.0
 
@@ -40,13 +39,12 @@ class ReferenceObserver:
             wrenches = model.wrenches(shape, motion.exerted, motion.a)[1]
             forces += [wrench.ravel() for wrench in wrenches.values()]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))
-        found = np.array(rows)
-        found[:, 0], found[:, 4], found[:, 5] = samples.time, samples.dissipated, samples.work
-        return found
+        table = np.array(rows)
+        table[:, 0], table[:, 4], table[:, 5] = samples.time, samples.dissipated, samples.work
+        return table
 
     def inspect(self, samples: Sampled, count: int) -> tuple[np.ndarray, Fault | None]:
-        """Return how far the sheet is strained in the first samples before one with an element inside out,
-        and a word on that."""
+        """Return stretches of the first samples before one with an inverted element, and its fault."""
         stretches = np.empty(count)
         for i, motion in enumerate(samples.motions[:count]):
             if inverted := self._model.inside_out(motion.q):
@@ -55,11 +53,11 @@ class ReferenceObserver:
         return stretches, None
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause where the law of strain does not hold that far, else ""."""
+        """Return a clause where the law of strain does not hold at a stretch, else ""."""
         return self._model.beyond(stretch)
 
     def fastest(self, samples: Sampled, i: int) -> str:
-        """Return the fastest node's place when deformed."""
+        """Return the place of the fastest node in the flat sheet, in words."""
         motion, model = samples.motions[i], self._model
         speed = np.abs(model.displacement(motion.v)).max(axis=1)
         node = int(np.argmax(np.where(np.isfinite(speed), speed, np.inf)))

@@ -1,19 +1,19 @@
-"""The discrete plate: a shell whose strains, on the flat sheet, are linear in its coordinates.
+"""Discrete plate: a shell whose strains, on the flat sheet, are linear in its coordinates.
 
     M ü + (τ K + α M) u̇ + K u = F
 
-Directors are those of the flat sheet, whatever tilts are added to them, and everything acts there: pressure
-along +z, an edge moment m as −m on the tilt towards the outward normal. Supports have the first orders of
-`scenes.meaning.kinematics`: the shortening of a bent edge's mid-line is of second order. Of a natural state,
-e0 of the middle and −k0 in bending are without stress. Bending and membrane do not know of each other; where
-that stops meaning anything says `fem_reference.plate.validity`.
+Loads act on the flat sheet with its upright directors: pressure along +z, an edge moment m as −m on the tilt
+towards the outward normal. Supports have the first orders of `scenes.meaning.kinematics`: the shortening of a
+bent edge's mid-line is of second order. A natural state leaves the strains e0 of the middle and −k0 in
+bending without stress. Bending and membrane are independent; `fem_reference.plate.validity` checks where this
+ceases to hold.
 
-Along an edge whose director nothing holds (free, hinged, held) the twisting moment fades within a layer of
-width √(D66/κGh) = h/√10, far less than an element. On equal elements the answer then converges like the width
-of the elements there: on 16 × 16 of Habibi et al.'s sheet it is 0.06 to 0.4 % off with such edges, and 0.01 %
-with all edges clamped. Divided finer towards all edges it is 0.002 to 0.03 % off with such edges, and 0.04 %
-with all edges clamped: so it is graded where an edge lets twist go.
-Source: Hughes, The Finite Element Method (2000), ch. 5.
+Along an edge without a held director (free, hinged, held) the twisting moment fades within a layer of width
+√(D66/κGh) = h/√10, far less than an element. On equal elements the answer then converges like the width of
+the elements there: on 16 × 16 of Habibi et al.'s sheet it is 0.06 to 0.4 % off with free or hinged edges, and
+0.01 % with all edges clamped. Divided finer towards all edges it is 0.002 to 0.03 % off with free or hinged
+edges, and 0.04 % with all edges clamped: so it is graded where an edge has no twisting moment. Source:
+Hughes, The Finite Element Method (2000), ch. 5.
 """
 
 from __future__ import annotations
@@ -41,10 +41,8 @@ from sheetbench.scenes.meaning.natural_state import NaturalState
 
 
 class DiscretePlate(DiscreteShell):
-    """A scene's plate on any flat mesh of straight-sided quadrilaterals [m]; BadInput for folded ones.
-
-    section: stiffness per width, from material and thickness unless given.
-    """
+    """Plate of a scene on any flat mesh of straight-sided quadrilaterals [m]; BadInput for folded ones.
+    section: stiffness per width, by default of material and thickness."""
 
     model = "plate"
     linear: ClassVar[bool] = True
@@ -63,11 +61,11 @@ class DiscretePlate(DiscreteShell):
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:
         nodes = self.plan.corners
-        made = PlateElements.build(nodes, section or section_at(self.scene, nodes))
-        return made, self.natural_of(self.scene)
+        elements = PlateElements.build(nodes, section or section_at(self.scene, nodes))
+        return elements, self.natural_of(self.scene)
 
     def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
-        return AT_GAUSS[0] @ self.plan.corners, _own
+        return AT_GAUSS[0] @ self.plan.corners, _natural_strains
 
     def directors(self, q: np.ndarray) -> np.ndarray:
         return self._upright
@@ -98,7 +96,7 @@ class DiscretePlate(DiscreteShell):
 
     @cached_property
     def _stiffness(self) -> np.ndarray:
-        """Data of K, which moduli are a multiple of everywhere."""
+        """Data of K; moduli are one multiple of its stiffness everywhere."""
         return self.folded(self.element.tangent(self.element.stiffness)).data
 
     @cached_property
@@ -106,11 +104,11 @@ class DiscretePlate(DiscreteShell):
         return self.folded(self._inertia).data
 
     def folded(self, blocks: np.ndarray) -> csr_matrix:
-        """The sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""
-        flat, every = self.shape(np.zeros(self.size), 0.0), np.arange(len(blocks))
-        return self.pattern.matrix(self.fold(flat, every, blocks.reshape(-1, 18, 3, 18, 3)))
+        """Return the sum on all unknowns of matrices of the elements' vectors (m, 54, 54)."""
+        flat, elements = self.shape(np.zeros(self.size), 0.0), np.arange(len(blocks))
+        return self.pattern.matrix(self.fold(flat, elements, blocks.reshape(-1, 18, 3, 18, 3)))
 
-    # when a state means nothing
+    # validity of a state
 
     def fault(self, shape: SheetShape) -> Fault | None:
         share = buckling_load(shape)
@@ -128,8 +126,8 @@ class DiscretePlate(DiscreteShell):
         return f"slopes, turns or twice the strain of {stretch:.3g}, beyond 1: {ends}"
 
 
-def _own(strain: np.ndarray, curvature: np.ndarray) -> np.ndarray:
-    """Return the strains (9 m, 8) that e0 and k0 (m, 9, 2, 2) leave without stress."""
+def _natural_strains(strain: np.ndarray, curvature: np.ndarray) -> np.ndarray:
+    """Return the natural strains (9 m, 8) of e0 and k0 (m, 9, 2, 2)."""
     out = np.zeros((*strain.shape[:2], 8))
     for part, form in ((MEMBRANE, strain), (BENDING, -curvature)):
         out[..., part] = [1.0, 1.0, 2.0] * form[..., [0, 1, 0], [0, 1, 1]]

@@ -4,7 +4,7 @@ Kinematics, u = u₀ + ζ β with the director's tilt β (the director is e_z + 
 
     ε = sym ∇u₀      κ = sym ∇β      γ = ∇w + β
 
-All fields are biquadratic. Taken as it stands, γ = 0 cannot be met pointwise and the thin plate locks, so
+All fields are biquadratic. Unprojected, γ = 0 cannot hold pointwise and the thin plate locks, so
 the covariant components γ_ξ = ∂w/∂ξ + β·∂x/∂ξ and γ_η are the shell's (`shell.element`) about the flat
 sheet, sampled at 2 × 3 and 3 × 2 Gauss points and interpolated from there: MITC9 (Bucalem & Bathe, Int. J.
 Numer. Meth. Engng 36, 1993). Constant strains are represented exactly in any straight-sided quadrilateral,
@@ -29,12 +29,9 @@ MEMBRANE, BENDING, SHEAR = slice(0, 3), slice(3, 6), slice(6, 8)
 
 @dataclass(frozen=True)
 class PlateElements(Element):
-    """m elements, whose strains (ε, κ, γ) at 9 Gauss points each are linear in the change of their vectors:
-    e = B q, (9 m, 8).
-
-    stiffness: that per strain times a point's area (9 m, 8, 8); gradient: ∇N at the Gauss points
-    (m, 9, 2, 9); forms: B (m, 72, 54).
-    """
+    """Elements whose strains (ε, κ, γ) at 9 Gauss points each are linear in the change of their vectors: e =
+    B q, (9 m, 8). stiffness: per strain, times a point's area (9 m, 8, 8); gradient: ∇N at the Gauss points
+    (m, 9, 2, 9); forms: B (m, 72, 54)."""
 
     gradient: np.ndarray
     forms: np.ndarray
@@ -42,7 +39,7 @@ class PlateElements(Element):
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
-        """Of elements with nodes at plan positions (m, 9, 2) [m]."""
+        """Return elements with nodes at plan positions (m, 9, 2) [m]."""
         slope, reference = AT_GAUSS[1], upright(nodes)
         inverse = np.linalg.inv(jacobians(nodes, slope))  # ∂ξ_a/∂x_b, by a and b
         gradient = np.einsum("agi,egab->egbi", slope, inverse)
@@ -55,42 +52,42 @@ class PlateElements(Element):
         sampled = np.einsum("kij,ejc->ekic", FORMS[SAMPLED_SHEAR], reference)
         forms[:, :, SHEAR] = np.einsum("egak,ekic->egaic", cartesian(nodes)[2], sampled)
         stiffness, weights = np.zeros((m, q, 8, 8)), areas(nodes)
-        places = (MEMBRANE, MEMBRANE), (BENDING, BENDING), (SHEAR, SHEAR), (MEMBRANE, BENDING)
-        for (row, column), moduli in zip(places, section, strict=True):
+        blocks = (MEMBRANE, MEMBRANE), (BENDING, BENDING), (SHEAR, SHEAR), (MEMBRANE, BENDING)
+        for (row, column), moduli in zip(blocks, section, strict=True):
             stiffness[:, :, row, column] = weights[..., None, None] * moduli
         stiffness[:, :, BENDING, MEMBRANE] = stiffness[:, :, MEMBRANE, BENDING]
-        made = stiffness.reshape(-1, 8, 8), weights, gradient, forms.reshape(m, 8 * q, 54)
-        return cls(reference, *made)
+        arrays = stiffness.reshape(-1, 8, 8), weights, gradient, forms.reshape(m, 8 * q, 54)
+        return cls(reference, *arrays)
 
     def strain(self, change: np.ndarray) -> np.ndarray:
-        """e (9 m, 8) of a change (m, 18, 3) of positions and directors."""
+        """Return e (9 m, 8) of a change (m, 18, 3) of positions and directors."""
         return weighed(self.forms, change.reshape(-1, 54)).reshape(-1, 8)
 
     def at_points(self, strain: np.ndarray) -> tuple[np.ndarray, ...]:
-        """E, κ (m, 9, 3) and γ (m, 9, 2) at the Gauss points of strains (9 m, 8)."""
+        """Return E, κ (m, 9, 3) and γ (m, 9, 2) at the Gauss points, from strains (9 m, 8)."""
         return tuple(strain.reshape(*self.areas.shape, 8)[..., part] for part in self.parts.values())
 
     def operator(self, change: np.ndarray) -> np.ndarray:
-        """B, whatever the change."""
+        """Return B, which does not depend on the change."""
         return self.forms
 
     def step(self, operator: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """B δq (9 m, 8) of a step (m, 18, 3)."""
+        """Return B δq (9 m, 8) of a step (m, 18, 3)."""
         return self.strain(step)
 
     def forces(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Bᵀ s (m, 18, 3) of stresses (9 m, 8), which are forces times lengths."""
+        """Return Bᵀ s (m, 18, 3) of stresses (9 m, 8), which are forces times lengths."""
         return weighed(operator.swapaxes(1, 2), stress.reshape(len(operator), -1)).reshape(-1, 18, 3)
 
     def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Zero: B does not change with a step."""
+        """Return zeros: B does not change with a step."""
         return np.zeros_like(step)
 
     def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Σ |B| |s| (18,) by vector, of stresses (9 m, 8)."""
+        """Return Σ |B| |s| (18,) by vector, of stresses (9 m, 8)."""
         return self.forces(np.abs(operator), np.abs(stress)).sum(axis=(0, 2))
 
     def tangent(self, moduli: np.ndarray) -> np.ndarray:
-        """Bᵀ D B (m, 54, 54) of moduli (9 m, 8, 8)."""
+        """Return Bᵀ D B (m, 54, 54) of moduli (9 m, 8, 8)."""
         m, points = len(self.forms), self.forms.reshape(-1, 8, 54)
         return self.forms.swapaxes(1, 2) @ (moduli @ points).reshape(m, -1, 54)

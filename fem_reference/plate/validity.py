@@ -1,18 +1,18 @@
-"""Where the linear plate's theory ends: strains, turns and in-plane forces beyond what it knows of.
+"""Limits of the linear plate's theory: strains, turns and in-plane forces.
 
 strained  the mid-surface stretched, or the sheet too heavy, for a linear law (`scenes.outside_model`).
-turned    the director e_z + β, the slope ∇w, or the turn ω = ½ (v,x − u,y) in the plane is more than 1: by as
-          much as a director is long no rotation turns it, whatever its angle.
-buckled   the in-plane forces N, which the plate's bending does not know of, take its stability at a share λ
-          of the load: with K the stiffness, K_N that of N on the slopes of w,
+turned    the director e_z + β, the slope ∇w, or the turn ω = ½ (v,x − u,y) in the plane is more than 1: no
+          rotation by any angle tilts a director by more than its length.
+buckled   the in-plane forces N, which the plate's bending neglects, take its stability at a share λ of the
+          load: with K the stiffness and K_N the geometric stiffness of N on the slopes of w,
 
               K φ = −λ K_N φ,      φ·K_N φ = ∫ ∇w·N ∇w dA
 
           (e.g. Bathe, Finite Element Procedures, 6.8). Checked where N presses somewhere and a² |N|/D > 1, a
-          the longer side: a square sheet held along one edge buckles at π²/4. Beside chains, whose own forces
-          take part, it is not checked.
+          the longer side: a square sheet held along one edge buckles at π²/4. Sheets with chains, whose own
+          forces take part, are not checked.
 
-The answer is linear in the load, so all of them tell the share of the load at which the theory ends.
+The answer is linear in the load, so that each criterion gives the share of the load at which the theory ends.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
 
 
 def strained(elements: PlateElements, change: np.ndarray, strain: np.ndarray) -> float:
-    """Return the largest slope, turn, or double the mean strain along x or y of an element, of changes of the
-    vectors (m, 18, 3) and strains (9 m, 8): linear theory ends at 1 of each."""
+    """Return the largest slope, turn, or double the mean strain along x or y of an element; linear theory
+    ends at 1 of each. change: of the vectors (m, 18, 3); strain: (9 m, 8)."""
     by_xy = elements.gradient @ change[:, None, :9]  # of u, v and w by x and y, (m, 9, 2, 3)
     inplane = 0.5 * (by_xy[:, :, 0, 1] - by_xy[:, :, 1, 0])
     tilt, slope = np.linalg.norm(change[:, 9:], axis=2), np.linalg.norm(by_xy[..., 2], axis=2)
@@ -38,8 +38,8 @@ def strained(elements: PlateElements, change: np.ndarray, strain: np.ndarray) ->
 
 
 def buckling_load(shape: SheetShape) -> float | None:
-    """Return the lowest positive share of the load at which the in-plane forces of a shape under all of it
-    buckle the plate; None where they cannot, or nearly not."""
+    """Return the lowest positive share of the load at which the in-plane forces buckle the plate. shape:
+    under the full load; the result is None for forces that cannot buckle it, or hardly."""
     sheet, elements = shape.sheet, shape.sheet.element
     force = shape.elastic[:, MEMBRANE] / elements.areas.reshape(-1, 1)  # [N/m]
     xx, yy, xy = force.T

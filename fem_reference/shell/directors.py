@@ -10,14 +10,14 @@ from sheetbench.numerics.options import njit
 
 @njit
 def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """Orthonormal T (n, 3, 2) with T ⊥ d, whose first tangent is the axis of this number (n,), −1 for any."""
+    """Return orthonormal T (n, 3, 2) with T ⊥ d; axes: numbers of the first tangents (n,), −1 for any."""
     out = empty((len(directors), 3, 2))
     for n in range(len(directors)):
         x, y, z = directors[n, 0], directors[n, 1], directors[n, 2]
         length = np.sqrt(x * x + y * y + z * z)
         x, y, z = x / length, y / length, z / length
         p, q, r = 1.0 * (axes[n] == 0), 1.0 * (axes[n] == 1), 1.0 * (axes[n] == 2)
-        if axes[n] < 0:  # e_x as d turns it along from e_z: no jumps beside factors made for a d nearby
+        if axes[n] < 0:  # e_x rotated with d from e_z: continuous in d
             side = 1.0 if z > -0.5 else -1.0
             p, q, r = 1.0 - x * x / (1.0 + side * z), -x * y / (1.0 + side * z), -side * x
         out[n, 0, 0], out[n, 1, 0], out[n, 2, 0] = p, q, r
@@ -26,20 +26,21 @@ def tangent_frames(directors: np.ndarray, axes: np.ndarray) -> np.ndarray:
 
 
 def to_unit(directors: np.ndarray) -> np.ndarray:
-    """The step (n, 3) along d with d · δd = ½ (1 − d · d)."""
+    """Return the step (n, 3) along d with d · δd = ½ (1 − d · d)."""
     square = np.einsum("nc,nc->n", directors, directors)
     return (0.5 / square - 0.5)[:, None] * directors
 
 
 def multiplier(directors: np.ndarray, couple: np.ndarray) -> np.ndarray:
-    """−(R_d · d)/(d · d) (n,) of residuals R_d (n, 3): the curvature of the sphere, on both rotations."""
+    """Return −(R_d · d)/(d · d) (n,) of residuals R_d (n, 3), the sphere's curvature, on both rotations."""
     square = np.einsum("nc,nc->n", directors, directors)
     return -np.einsum("nc,nc->n", couple, directors) / square
 
 
 def projected(tangent: np.ndarray, frames: np.ndarray) -> np.ndarray:
-    """Tangents of loads on elements, (m, 18, 3, 18, 3), in their unknowns, (m, 45, 45): displacements of nine
-    nodes, then two rotations β of nine directors, δd = T β; frames: T (m, 9, 3, 2)."""
+    """Return tangents (m, 45, 45) in the elements' unknowns, from tangents (m, 18, 3, 18, 3) of loads on
+    them. Unknowns: displacements of nine nodes, then two rotations β of nine directors, δd = T β; frames: T
+    (m, 9, 3, 2)."""
     m = len(tangent)
     turned = tangent[:, :, :, 9:].reshape(m, 54, 9, 3).swapaxes(1, 2) @ frames
     columns = tangent[:, :, :, :9].reshape(m, 18, 3, 27), turned.swapaxes(1, 2).reshape(m, 18, 3, 18)

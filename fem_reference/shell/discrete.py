@@ -1,9 +1,9 @@
-"""The discrete shell: positions and directors, five unknowns a node.
+"""Discrete shell: positions and directors, five unknowns a node.
 
-Reissner and Mindlin's, of large displacements and rotations, with the energy ½ h E:C:E + h³/24 κ:C:κ +
-½ k h G γ·γ, k = 5/6, or that of another law (`laws`).
+Reissner and Mindlin's shell of large displacements and rotations, with the energy ½ h E:C:E + h³/24 κ:C:κ +
+½ k h G γ·γ, k = 5/6, or the energy of another law (`laws`).
 
-q: displacements u and changes d − e_z of the directors of all nodes, (2 n, 3), then those of the rods' own
+q: displacements u and changes d − e_z of the directors of all nodes, (2 n, 3), then changes of the rods' own
 third director m, one more director at every node of their edges, (p, 3): in all 2 n + p vectors. Unknowns are
 u and two tangent-plane components β of every director: δd = T β with T ⊥ d. The constraint |d|² = 1 is linear
 in the step of statics,
@@ -11,7 +11,7 @@ in the step of statics,
     d · δd = ½ (1 − d · d),
 
 and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sphere). The kinetic energy per area
-is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², of unlike layers with ∫ρz dz u̇·ḋ besides.
+is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², with ∫ρz dz u̇·ḋ added for layers of different density.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ from sheetbench.scenes.meaning.natural_state import NaturalState, natural_at
 
 
 class DiscreteShell(DiscreteElements):
-    """A scene's shell on a flat mesh, at rest unless it is moving; moves, turns: numbers of unknowns (n, 3)
+    """Shell of a scene on a flat mesh, at rest unless it is moving. moves, turns: numbers of unknowns (n, 3)
     of every node and (n + p, 2) of every director, −1 where held."""
 
     model = "shell"
@@ -83,14 +83,14 @@ class DiscreteShell(DiscreteElements):
         self.supports = supports = rod.hold_bases(self.supports_of(), bound.rods)
         self.held, held = supports.position.ravel(), np.concatenate([supports.director, bound.held])
         turning = np.repeat(~held[:, None], 2, axis=1)
-        turning[:n][supports.tilt.any(axis=1), 0] = False  # the first tangent there is the axis held
-        every = np.concatenate([~self.held, turning.ravel()])
-        numbered = np.where(every, np.cumsum(every) - 1, -1)
+        turning[:n][supports.tilt.any(axis=1), 0] = False  # there the first tangent is the held axis
+        is_free = np.concatenate([~self.held, turning.ravel()])
+        numbered = np.where(is_free, np.cumsum(is_free) - 1, -1)
         self.moves, self.turns = numbered[: 3 * n].reshape(-1, 3), numbered[3 * n :].reshape(-1, 2)
-        self._free = np.flatnonzero(every)  # among all displacements, then all rotations
+        self._free = np.flatnonzero(is_free)  # indices among all displacements, then all rotations
         sides, directors = np.split(bound.sites, [3], axis=1)
-        of_kinds = [(plan.elements, plan.elements), (sides, directors - n)]
-        unknowns = (np.hstack([_flat(self.moves[at]), _flat(self.turns[on])]) for at, on in of_kinds)
+        vectors = [(plan.elements, plan.elements), (sides, directors - n)]
+        unknowns = (np.hstack([_flat(self.moves[at]), _flat(self.turns[on])]) for at, on in vectors)
         self.pattern = pattern_of(self.places(bound), *unknowns, size=len(self._free))
         self.unknowns, self.size, self.first_director = self.pattern.size, 6 * n + bound.own.size, 3 * n
         self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.own])
@@ -98,13 +98,13 @@ class DiscreteShell(DiscreteElements):
         self.bind(bound)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[Any, NaturalState | None]:
-        """All elements, and the strains that they have without stress. Raises BadInput for a law that the
-        scene's material or a section of the caller's own does not have."""
+        """Return all elements, and their natural strains. Raises BadInput for a law that the scene's material
+        or a section of the caller's own does not have."""
         scene, nodes = self.scene, self.plan.corners
         require_law(law, LAWS, scene)
         if law == STRAIN_LAW:
-            own = grown(section or section_at(scene, nodes), scene, nodes)
-            return Element.build(nodes, own), self.natural_of(scene)
+            element_section = grown(section or section_at(scene, nodes), scene, nodes)
+            return Element.build(nodes, element_section), self.natural_of(scene)
         require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
         if section is not None:
             raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
@@ -115,18 +115,18 @@ class DiscreteShell(DiscreteElements):
         return None if self.section else partial(type(self), self.plan.mesh, self.scene, None, *law)
 
     def natural_of(self, scene: Scene) -> NaturalState | None:
-        """The strains that a scene's sheet has without stress."""
+        """Return the natural strains of a scene's sheet, at which it has no stress."""
         sites, make = self.natural_form()
         state = natural_at(scene if self.linear else stretched(scene), sites)
         return state and state.made(make)
 
     def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
-        """Where (m, p, 2) [m] e0 and k0 (m, p, 2, 2) count, and what makes strains of them."""
+        """Return sites (m, p, 2) [m] of e0 and k0 (m, p, 2, 2), and a function that makes strains of both."""
         return AT_SITES @ self.plan.corners, partial(natural_strains, self.plan.corners)
 
     def with_scene(self, scene: Scene) -> Self:
-        """The sheet at rest with the supports, loads, chains and natural state of another scene of the same
-        plan, and with its own elements."""
+        """Return the sheet at rest with supports, loads, chains and natural state of another scene of equal
+        plan. It keeps its own elements."""
         other = copy(self)
         for name in ("_inertia", "sheet_mass", "mass"):
             vars(other).pop(name, None)
@@ -140,7 +140,7 @@ class DiscreteShell(DiscreteElements):
         return other
 
     def supports_of(self) -> Supports:
-        """What supports and motions hold."""
+        """Return the prescribed positions and directors of supports and motions."""
         return surface_supports.of_scene(self.scene, self.plan)
 
     @cached_property
@@ -162,26 +162,26 @@ class DiscreteShell(DiscreteElements):
         mass.eliminate_zeros()
         return mass
 
-    # what is prescribed, and the unknowns
+    # prescribed displacements and the unknowns
 
     def directors(self, q: np.ndarray) -> np.ndarray:
-        """d of the nodes, then m of the rods, (n + p, 3)."""
+        """Return d of the nodes, then m of the rods, (n + p, 3)."""
         return q[3 * self.nodes :].reshape(-1, 3) + self._upright
 
     def frame(self, q: np.ndarray, at: float) -> np.ndarray:
-        """T (n + p, 3, 2) ⊥ d, and ⊥ m of the rods."""
+        """Return T (n + p, 3, 2) ⊥ d, and ⊥ m of the rods."""
         return tangent_frames(self.directors(q), self._held_axes)
 
     @cached_property
     def _held_axes(self) -> np.ndarray:
-        """The axis that is the first tangent of every director (n + p,), −1 for any."""
+        """Number of the axis that is the first tangent of every director (n + p,), −1 for any tangent."""
         axes = np.full(len(self.turns), -1)
         nodes, along = np.nonzero(self.supports.tilt & ~self.supports.director[:, None])
         axes[nodes] = along
         return axes
 
     def change(self, at: float) -> np.ndarray:
-        """Prescribed change (2, n, 3) of positions [m] and directors."""
+        """Return the prescribed change (2, n, 3) of positions [m] and directors."""
         return self.supports.change(*self.instant(at))
 
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
@@ -199,22 +199,22 @@ class DiscreteShell(DiscreteElements):
         return np.where(self._held, target - shape.q.reshape(-1, 3), free).ravel()
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """q (N,) with those directors that are free brought to unit length."""
+        """Return q (N,) after a step, its free directors brought to unit length."""
         change = (q + step).reshape(-1, 3)
         turns = change[self.nodes :]
         directors = turns + self._upright
-        unit = directors / np.linalg.norm(directors, axis=1)[:, None] - self._upright
-        return np.append(change[: self.nodes], np.where(self._held[self.nodes :], turns, unit))
+        normalised = directors / np.linalg.norm(directors, axis=1)[:, None] - self._upright
+        return np.append(change[: self.nodes], np.where(self._held[self.nodes :], turns, normalised))
 
     def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """−|ḋ|² d of the directors that are free."""
+        """Return −|ḋ|² d of the free directors."""
         rate = v.reshape(-1, 3)[self.nodes :]
         inward = -np.sum(rate**2, axis=1)[:, None] * self.directors(q)
         turns = np.where(self._held[self.nodes :], 0.0, inward)
         return np.append(np.zeros((self.nodes, 3)), turns)
 
     def of_supports(self, exerted: np.ndarray) -> np.ndarray:
-        """Along directors that are free M ü + g is what keeps them unit vectors."""
+        """Return M ü + g at held coordinates, without the forces that keep free directors unit vectors."""
         return np.where(self._held.ravel(), exerted, 0.0)
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
@@ -224,8 +224,8 @@ class DiscreteShell(DiscreteElements):
 
     @cached_property
     def _basis(self) -> tuple[np.ndarray, ...]:
-        """Entries of displacements in Z; rows and starts of its columns, one of a displacement, three of
-        a rotation; the directors and tangents of these."""
+        """Entries of displacements in Z, rows and starts of its columns (one row a displacement, three a
+        rotation), and the directors and tangents of the rotations."""
         moves = np.flatnonzero(~self.held)
         director, tangent = np.nonzero(self.turns >= 0)
         rows = np.append(moves, 3 * (self.nodes + director[:, None]) + np.arange(3))
@@ -237,10 +237,10 @@ class DiscreteShell(DiscreteElements):
         return np.append(force[: 3 * self.nodes], couple)[self._free]
 
     def expand(self, shape: SheetShape, step: np.ndarray) -> np.ndarray:
-        every, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
-        every[self._free] = step
-        turned = np.einsum("nck,nk->nc", shape.frame, every[3 * n :].reshape(-1, 2))
-        return np.concatenate([every[: 3 * n], turned.ravel()])
+        all_steps, n = np.zeros(3 * self.nodes + self.turns.size), self.nodes
+        all_steps[self._free] = step
+        turned = np.einsum("nck,nk->nc", shape.frame, all_steps[3 * n :].reshape(-1, 2))
+        return np.concatenate([all_steps[: 3 * n], turned.ravel()])
 
     # forces
 
@@ -273,7 +273,7 @@ class DiscreteShell(DiscreteElements):
         rods = np.zeros(self.size - 6 * self.nodes)
         return np.concatenate([displacement.ravel(), turn.ravel(), rods])
 
-    # what is shown
+    # results and validity
 
     def inside_out(self, q: np.ndarray) -> str:
         return inverted(self.element, self.gather(q))
@@ -301,5 +301,5 @@ class DiscreteShell(DiscreteElements):
 
 
 def _flat(numbers: np.ndarray) -> np.ndarray:
-    """Numbers (m, k, c) by element, (m, k c)."""
+    """Return numbers (m, k, c) by element, (m, k c)."""
     return numbers.reshape(len(numbers), numbers.shape[1] * numbers.shape[2])

@@ -1,24 +1,24 @@
-"""The nine-node shell element of a flat sheet: strains quadratic in the nodal vectors, MITC9 assumed strains.
+"""Nine-node shell element of a flat sheet: strains quadratic in the nodal vectors, MITC9 assumed strains.
 
-Position φ + ζ d, both biquadratic; with covariant components along the element's own coordinates r, s
+The position is φ + ζ d, both biquadratic. Covariant components along the element's own coordinates r, s are
 
     membrane  e_αβ = ½ (φ,α · φ,β − X,α · X,β)
     bending   k_αβ = ½ (φ,α · d,β + φ,β · d,α)
     shear     g_α  = φ,α · d
 
-A biquadratic element locks if these are integrated as they stand. They are sampled where the locked
+A biquadratic element locks if the components are integrated unchanged. They are sampled where the locked
 parts vanish and interpolated (MITC9, Bucalem & Bathe 1993): rr and r-shear at r = ±1/√3, s = 0, ±√(3/5); ss
-and s-shear at the transposed points; the membrane's rs at the 2 × 2 Gauss points, taken from the 3 × 3
-ones by biquadratic interpolation, which makes it the mean-square projection on bilinear functions. On a
-distorted element that projection does not keep the mean of the Cartesian strain, on which the patch test
-hangs: the difference is added back as a constant. The twist k_rs has no part that locks and stands as it is:
-projected too, as Bucalem & Bathe have it, it lets bent elements of unequal sides turn unstable (see
-`validity`). The membrane's, left as it stands, locks: the error of a thin sheet's large deflections on
-8 × 8 elements goes from 1.5 to 14 %. An element has 54 sampled strains
+and s-shear at the transposed points; the membrane's rs at the 2 × 2 Gauss points, taken from the 3 × 3 ones
+by biquadratic interpolation, which makes it the mean-square projection on bilinear functions. On a distorted
+element that projection does not keep the mean of the Cartesian strain, which the patch test requires: the
+difference is added back as a constant. The twist k_rs has no locking part and is not projected: with the
+projection of Bucalem & Bathe, bent elements of unequal sides become unstable (see `validity`). An unprojected
+membrane shear locks: the error of a thin sheet's large deflections on 8 × 8 elements goes from 1.5 to 14 %.
+An element has 54 sampled strains
 
     e_k = ½ Qᵀ H_k Q − ½ Q₀ᵀ H_k Q₀,     Q = (φ_1 … φ_9, d_1 … d_9),
 
-with H_k the same for every element, and the energy ½ eᵀ D e, with D (54, 54) the integral over the
+with equal H_k in every element, and the energy ½ eᵀ D e, with D (54, 54) the integral over the
 element at 3 × 3 Gauss points. So δe = B δQ with B = H Q, the force is Bᵀ s with s = D e, and its tangent
 Bᵀ D B + Σ s_k H_k. Strains are formed from the displacement, e = (Q₀ + ½ q)ᵀ H q, which keeps their
 digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mode.
@@ -61,11 +61,11 @@ MEMBRANE = slice(0, 21)
 BENDING = slice(21, 42)
 SHEAR = slice(42, 54)
 STRAINS = 54
-ROUNDED = 1e-14  # of an element's size, below which its sides' slant is rounding
+ROUNDED = 1e-14  # slant of a side over the element's size below which it is rounding
 
 
 def _tables() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """a and b (21, 9) of `fem_reference.shell.sampling`, and the shape functions' values there (21, 9)."""
+    """Return a and b (21, 9) of `sampling`, and the shape functions' values at the points (21, 9)."""
     first, second, values = [], [], []
     for grid, (a, b) in zip(GRIDS.values(), IN_PLANE, strict=True):
         value, slope = shape(*product_grid(*grid))
@@ -81,27 +81,25 @@ TABLES = np.ascontiguousarray(np.concatenate([_A, _B, _V]).T)
 
 
 def _strain_forms() -> np.ndarray:
-    """H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
+    """Return H (54, 18, 18) with e = ½ Qᵀ H Q; Q holds nine positions, then nine directors."""
     forms = np.zeros((STRAINS, 18, 18))
     phi, director = slice(0, 9), slice(9, 18)
     product, slant = _A[:, :, None] * _B[:, None, :], _A[: len(_V), :, None] * _V[:, None, :]
-    even = 0.5 * (product + product.transpose(0, 2, 1))
-    forms[MEMBRANE, phi, phi] = forms[BENDING, phi, director] = forms[BENDING, director, phi] = even
+    symmetric = 0.5 * (product + product.transpose(0, 2, 1))
+    forms[MEMBRANE, phi, phi] = forms[BENDING, phi, director] = forms[BENDING, director, phi] = symmetric
     forms[SHEAR, phi, director] = slant
     forms[SHEAR, director, phi] = slant.transpose(0, 2, 1)
     return forms
 
 
 FORMS = _strain_forms()
-OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are theirs turned over
+OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their transposes
 
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²].
-
-    parts: which strains are whose.
-    """
+    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]. parts:
+    slices of the strains by kind."""
 
     reference: np.ndarray
     stiffness: np.ndarray
@@ -110,12 +108,12 @@ class Element:
 
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
-        """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
+        """Return elements with nodes at (m, 9, 2) [m]. Raises BadInput if one is inverted."""
         return cls(*built(nodes, *section))
 
     @cached_property
     def coupled(self) -> bool:
-        """Whether D mixes strains of different parts."""
+        """Whether D couples strains of different parts."""
         return bool(self.stiffness[:, MEMBRANE, BENDING].any())
 
     @cached_property
@@ -131,47 +129,47 @@ class Element:
         return np.asarray(np.linalg.norm(across, axis=2))
 
     def strain(self, change: np.ndarray) -> np.ndarray:
-        """Sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors: its product with
-        their derivatives half way, which keeps the digits of a small one."""
+        """Return sampled strains e (m, 54) of the change q (m, 18, 3) of positions and directors. They are
+        the product of q with their derivatives half way, which keeps the digits of a small q."""
         return self.step(self.reference + 0.5 * change, change)
 
     def operator(self, change: np.ndarray) -> np.ndarray:
-        """Nodal vectors Q (m, 18, 3), which B = H Q is made of, at a change q (m, 18, 3)."""
+        """Return nodal vectors Q (m, 18, 3), the argument of B = H Q, at a change q (m, 18, 3)."""
         return self.reference + change
 
     def step(self, operator: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """B δq (m, 54) of a step (m, 18, 3)."""
+        """Return B δq (m, 54) of a step (m, 18, 3)."""
         return np.asarray(sampling.strain_of(operator, np.ascontiguousarray(step), TABLES))
 
     def forces(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Bᵀ s (m, 18, 3) of stresses (m, 54)."""
+        """Return Bᵀ s (m, 18, 3) of stresses (m, 54)."""
         return np.asarray(sampling.forces_of(np.ascontiguousarray(operator), stress, TABLES))
 
     def geometric(self, step: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Σ s_k H_k δq (m, 18, 3) of a step (m, 18, 3) under stresses (m, 54): B is linear in the vectors."""
+        """Return Σ s_k H_k δq (m, 18, 3) of a step under stresses (m, 54): B is linear in the vectors."""
         return self.forces(step, stress)
 
     def magnitudes(self, operator: np.ndarray, stress: np.ndarray) -> np.ndarray:
-        """Σ |B| |s| (18,) by nodal vector, of stresses (m, 54)."""
+        """Return Σ |B| |s| (18,) by nodal vector, of stresses (m, 54)."""
         return np.asarray(sampling.magnitudes(operator, stress, TABLES))
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
-        """s = D e (m, 54), conjugate to the sampled strains."""
+        """Return s = D e (m, 54), conjugate to the sampled strains."""
         return weighed(self.stiffness, strain)
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
-        """D, ∂s/∂e (m, 54, 54) at strains (m, 54)."""
+        """Return D = ∂s/∂e (m, 54, 54) at strains (m, 54)."""
         return self.stiffness
 
     def at_points(self, strain: np.ndarray) -> tuple[np.ndarray, ...]:
-        """E, κ (m, 9, 3) and γ (m, 9, 2) at the Gauss points of sampled strains (m, 54)."""
+        """Return E, κ (m, 9, 3) and γ (m, 9, 2) at the Gauss points, from sampled strains (m, 54)."""
         forms = cartesian(self.reference[:, :9, :2])
         parts = zip(forms, self.parts.values(), strict=False)
         return tuple(np.einsum("egak,ek->ega", form, strain[:, part]) for form, part in parts)
 
     def resultants(self, values: Values, strain: np.ndarray) -> tuple[np.ndarray, ...]:
-        """N, M (m, 9, 3) and Q (m, 9, 2), times areas, at the Gauss points under strains (m, 54) of a sheet
-        of these constants."""
+        """Return N, M (m, 9, 3) and Q (m, 9, 2), times areas, at the Gauss points under strains (m, 54).
+        values: the constants of the sheet."""
         (stretch, curvature, slant), section = self.at_points(strain), section_with(values)
         area = self.areas[..., None]
         return (
@@ -181,13 +179,13 @@ class Element:
         )
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
-        """Energy [J] of strains e (m, 54), by part."""
+        """Return the energy [J] of strains e (m, 54), by part."""
         density = strain * self.stress(strain)
         return {name: 0.5 * float(density[:, part].sum()) for name, part in self.parts.items()}
 
 
 def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
-    """D e (…, k) of moduli (…, k, l) and strains (…, l)."""
+    """Return D e (…, k) of moduli (…, k, l) and strains (…, l)."""
     return np.asarray((moduli @ strain[..., None])[..., 0])
 
 
@@ -195,7 +193,7 @@ def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
 def built(
     nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray, mixed: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""
+    """Return reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""
     stretching, bent, slanted, areas = cartesian(nodes)
     stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
     stiffness[:, MEMBRANE, MEMBRANE] = integrated(stretching, membrane, areas)
@@ -208,7 +206,7 @@ def built(
 
 
 def upright(nodes: np.ndarray) -> np.ndarray:
-    """Q₀ (m, 18, 3) of elements with nodes at plan positions (m, 9, 2) [m]."""
+    """Return Q₀ (m, 18, 3) of elements with nodes at plan positions (m, 9, 2) [m]."""
     reference = np.zeros((len(nodes), 18, 3))
     reference[:, :9, :2], reference[:, 9:, 2] = nodes, 1.0
     return reference
@@ -216,11 +214,11 @@ def upright(nodes: np.ndarray) -> np.ndarray:
 
 @cached(last=4, most=1 << 16)
 def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """What makes Cartesian strains [xx, yy, 2xy] at the Gauss points of the sampled membrane and bending
-    ones, (m, 9, 3, 21) each, and [xz, yz] of the shear ones, (m, 9, 2, 12), of elements with nodes (m, 9, 2);
-    areas w |det J| (m, 9) [m²]. Raises BadInput if an element is inverted."""
+    """Return matrices that make Cartesian strains at the Gauss points of sampled ones, and areas. Matrices of
+    membrane and bending strains [xx, yy, 2xy], (m, 9, 3, 21) each, and of shear strains [xz, yz], (m, 9, 2,
+    12); areas w |det J| (m, 9) [m²]. nodes: (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
     jacobian = jacobians(nodes, AT_GAUSS[1])
-    # A side along an axis has no slant, not one of rounding: D couples neither rr nor ss with rs then.
+    # A side along an axis gets a slant of exactly zero, so that D couples neither rr nor ss with rs.
     jacobian[np.abs(jacobian) < ROUNDED * np.abs(jacobian).max(axis=(1, 2, 3), keepdims=True)] = 0.0
     area = np.linalg.det(jacobian)
     require_upright(area)
@@ -236,7 +234,7 @@ def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np
 
 
 def _spread(pull: np.ndarray, *onto: np.ndarray) -> np.ndarray:
-    """What makes strains (m, 9, a, Σ k) at the Gauss points of covariant ones there (m, 9, a, c), each of
-    these interpolated (9, k) from its samples."""
-    parts = [np.einsum("ega,gk->egak", pull[..., c], each) for c, each in enumerate(onto)]
+    """Return the matrix (m, 9, a, Σ k) from samples to strains at the Gauss points. pull: of covariant
+    strains there (m, 9, a, c); onto: for each covariant strain, its interpolation (9, k)."""
+    parts = [np.einsum("ega,gk->egak", pull[..., c], weights) for c, weights in enumerate(onto)]
     return np.concatenate(parts, axis=-1)

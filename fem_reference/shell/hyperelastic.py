@@ -6,9 +6,9 @@ the thickness give
 
     s = ∫∫ ∇eᵀ S(e) dζ dA,   D = ∫∫ ∇eᵀ ∂S/∂e ∇e + S·∇∇e dζ dA,   ∇e = ((1 + ζ κ ∇tᵀ) T_m, ζ t T_b)
 
-with T what makes Cartesian strains of the sampled ones (`element.cartesian`). Transverse shear γ, of a
-director that leans by φ, stores ½ κ G h t² tan² φ (`slant`). With St Venant–Kirchhoff's law t and C
-are 1, and these are the stresses of `Element`.
+with the matrix T from sampled to Cartesian strains (`element.cartesian`). Transverse shear γ, of a
+director inclined by φ, stores ½ κ G h t² tan² φ (`slant`). St Venant–Kirchhoff's law has t = C = 1 and the
+stresses of `Element`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)
 
 @dataclass(frozen=True)
 class HyperelasticElement(Element):
-    """Elements of a material and its law; stiffness: D at no strain; membrane, bending: T (m, 9, 3, 21);
+    """Elements of a material and its law. stiffness: D at zero strain; membrane, bending: T (m, 9, 3, 21);
     slanted: T of shear (m, 9, 2, 12); heights, weights: ζ [m] and ∫ dζ [m] of points through the thickness,
     (3,)."""
 
@@ -47,15 +47,15 @@ class HyperelasticElement(Element):
 
     @classmethod
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
-        """From the nodes' plan positions (m, 9, 2) [m]. Raises BadInput if an element is inverted."""
+        """Return elements with nodes at (m, 9, 2) [m]. Raises BadInput if one is inverted."""
         linear, half = built(nodes, *section_of(material, thickness)), 0.5 * thickness
         return cls(*linear, law, material, *cartesian(nodes)[:3], half * _LEVELS, half * _SHARES)
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
-        """s (m, 54), conjugate to the sampled strains."""
+        """Return s (m, 54), conjugate to the sampled strains."""
         forms = self.membrane, self.bending, self.slanted
         pulls = zip(forms, self._resultants(strain), strict=True)
-        parts = [np.einsum("egak,ega->ek", form, found, optimize=True) for form, found in pulls]
+        parts = [np.einsum("egak,ega->ek", form, resultant, optimize=True) for form, resultant in pulls]
         return np.concatenate(parts, axis=1)
 
     def resultants(self, values: Values, strain: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -64,18 +64,18 @@ class HyperelasticElement(Element):
         return other._resultants(strain)
 
     def _resultants(self, strain: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Return what is conjugate to E, κ (m, 9, 3) and γ (m, 9, 2), times areas."""
+        """Return stress resultants conjugate to E, κ (m, 9, 3) and γ (m, 9, 2), times areas."""
         stretch, curvature = self._strains(strain)
         t, slope, _ = self.law.thickness(self.material, stretch)
-        found = self._response(stretch, t[..., None] * curvature).first * self._volumes[..., None]
-        force, moment = found.sum(axis=2), np.einsum("egza,z->ega", found, self.heights)
+        stress = self._response(stretch, t[..., None] * curvature).first * self._volumes[..., None]
+        force, moment = stress.sum(axis=2), np.einsum("egza,z->ega", stress, self.heights)
         force = force + np.sum(moment * curvature, axis=-1)[..., None] * slope
         shear, leaning = (self._shear * self.areas)[..., None], self._slant(stretch, strain)
         force = force + shear * leaning.first[..., :3]
         return force, t[..., None] * moment, shear * leaning.first[..., 3:]
 
     def moduli(self, strain: np.ndarray) -> np.ndarray:
-        """D (m, 54, 54)."""
+        """Return D (m, 54, 54)."""
         stretch, curvature = self._strains(strain)
         t, slope, bend = self.law.thickness(self.material, stretch)
         _, stress, tangent = self._response(stretch, t[..., None] * curvature)
@@ -99,7 +99,7 @@ class HyperelasticElement(Element):
         return out
 
     def energies(self, strain: np.ndarray) -> dict[str, float]:
-        """Energy [J] of strains e (m, 54): that of the mid-surface's stretch, what bending adds, of shear."""
+        """Return the energy [J] of strains e (m, 54): of stretch, of bending (the rest), of shear."""
         stretch, curvature = self._strains(strain)
         bent = self.law.thickness(self.material, stretch).value[..., None] * curvature
         total, membrane = (
@@ -109,19 +109,20 @@ class HyperelasticElement(Element):
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
 
     def _strains(self, strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return E and κ (m, 9, 3) at every element's points of the sampled strains (m, ≥ 42)."""
+        """Return E and κ (m, 9, 3) at every element's points from the sampled strains (m, ≥ 42)."""
         return (
             np.einsum("egak,ek->ega", self.membrane, strain[:, MEMBRANE]),
             np.einsum("egak,ek->ega", self.bending, strain[:, BENDING]),
         )
 
     def _response(self, stretch: np.ndarray, bent: np.ndarray) -> Triad:
-        """Return that to E and t κ through the thickness, (m, 9, 3, …)."""
+        """Return the law's response to E and t κ through the thickness, (m, 9, 3, …)."""
         strain = stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
         return self.law.response(self.material, strain)
 
     def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Triad:
-        """Return transverse shear at every element's points, linear unless the law is for large strains."""
+        """Return the shear energy at every element's points, quadratic unless the law is for large
+        strains."""
         leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
         if not self.law.stands_any_strain:
             return linear(leaning)
@@ -129,10 +130,10 @@ class HyperelasticElement(Element):
 
     @property
     def _shear(self) -> Any:
-        """κ G h [N/m]."""
+        """Shear stiffness κ G h [N/m]."""
         return section_of(self.material, self.weights.sum()).shear[0, 0]
 
     @property
     def _volumes(self) -> np.ndarray:
-        """(m, 9, 3) [m³]."""
+        """Volumes (m, 9, 3) [m³] of the integration points."""
         return self.areas[:, :, None] * self.weights

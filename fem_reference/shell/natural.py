@@ -1,5 +1,7 @@
-"""Shells that are not flat at rest: natural strains where elements sample membrane and bending ones, shear
-having none, and sections of the natural sides (`fem_reference.surface.materials.green`)."""
+"""Natural strains of shells that are not flat at rest, where elements sample membrane and bending strains.
+
+Shear has none. Sections refer to the natural sides (`fem_reference.surface.materials.green`).
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ from sheetbench.scenes.meaning.natural_state import natural_at
 
 
 def natural_strains(nodes: np.ndarray, e: np.ndarray, k: np.ndarray) -> np.ndarray:
-    """Return those (m, 54) of elements with nodes (m, 9, 2) [m], of e0 and k0 (m, 21, 2, 2) at the sites."""
+    """Return natural strains (m, 54) of elements at (m, 9, 2) [m] from e0, k0 (m, 21, 2, 2) at the sites."""
     forms = green(e), 0.5 * (green(e - k) - green(e + k))
     parts = [sampled(nodes, form) for form in forms]
     return np.pad(np.concatenate(parts, axis=1), ((0, 0), (0, STRAINS - BENDING.stop)))
@@ -27,7 +29,7 @@ def sampled(nodes: np.ndarray, strain: np.ndarray) -> np.ndarray:
 
 
 def grown(section: Section, scene: Scene, corners: np.ndarray) -> Section:
-    """Return the section per area and strain of the sheet as drawn, of one per natural area and strain;
+    """Return the section per area and strain of the drawn sheet, from a section per natural area and strain.
     corners: the elements' nodes (m, 9, 2) [m]."""
     state = natural_at(stretched(scene), AT_GAUSS[0] @ corners)
     if state is None or not (strain := state.at()[0]).any():

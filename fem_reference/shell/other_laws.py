@@ -1,17 +1,16 @@
-"""How far another law of strain would move a shell, from its equilibrium under St Venant–Kirchhoff's.
+"""Displacement of a shell by another law of strain, from its equilibrium under St Venant–Kirchhoff's law.
 
-The laws are alike at small strain, so that their stresses differ by δs of second order in it, and with K the
+The laws agree at small strain, so that their stresses differ by δs of second order in it, and with K the
 tangent at the equilibrium
 
     K δu = −Bᵀ δs
 
-moves it to the other law's, to first order; the same again from there, with that K, to second. Where a sheet
-bends the first step alone is too far: δs of bending is even through the thickness and makes a strain of the
+moves it to the other law's equilibrium, to first order; a second step with the old K, to second order. The
+first step alone is too large in bending: δs of bending is even through the thickness and strains the
 mid-surface, which then changes the moment. A hanging sheet with a hole moves by a half and by an eighth of
-the first step in Biot's and neo-Hooke's laws, and by 0.96 of both steps in the one that moves it farther.
-Strains are weighed by what they do to the displacement at the probes: a peak of stretch in a corner next to
-nothing, a stretch that carries the sheet all of it, and near a fold, where K is soft, more than any strain
-would let expect.
+the first step in Biot's and neo-Hooke's laws, and by 0.96 of both steps in the law that moves it farther. A
+strain counts by its effect on the displacement at the probes: a peak of stretch in a corner hardly counts, a
+stretch that carries the sheet counts fully, and near a fold, where K is soft, a small strain counts much.
 """
 
 from __future__ import annotations
@@ -31,16 +30,16 @@ from sheetbench.scenes import Scene
 
 OTHERS = ("biot", "neo-hookean")
 STEPS = 2
-SAME = 1e-6  # residual, relative to the forces, up to which the answer's state is that of the mesh rebuilt
+SAME = 1e-6  # residual, relative to the forces, up to which the rebuilt mesh reproduces the answer
 
 
 def shift(scene: Scene, answer: Solution) -> float | None:
-    """Return how far the shells of `OTHERS` are from a shell's answer, whichever is farther, as a share of
-    the largest displacement at the scene's probes; None where it is unknown: of sheets that are not the
-    same all over, actuators, sections and meshes of the caller's own, and sheets solved by halves."""
+    """Return the larger distance of the shells of `OTHERS` from a shell's answer, over its largest
+    displacement at probes. It is None, unknown, for sheets that are not uniform, actuators, sections and
+    meshes of the caller's own, and for answers that a mesh of their settings does not reproduce."""
     settings = answer.settings
-    whole = {"elements", "graded", "law"} == set(settings) and settings["law"] == STRAIN_LAW
-    if not whole or not scene.uniform or scene.actuators or len(scene.probe_points()) == 0:
+    supported = {"elements", "graded", "law"} == set(settings) and settings["law"] == STRAIN_LAW
+    if not supported or not scene.uniform or scene.actuators or len(scene.probe_points()) == 0:
         return None
     with one_blas_thread():
         sheet = shell(scene, tuple(settings["elements"]), graded=settings["graded"])
@@ -60,19 +59,19 @@ def shift(scene: Scene, answer: Solution) -> float | None:
                 other = HyperelasticElement.of(
                     sheet.plan.corners, scene.material, scene.sheet.thickness, LAWS[law]
                 )
-                # what is left of the answer's own residual does not count
-                state, forces, left = start, rest, np.zeros(1)
+                # the answer's own residual is not counted
+                state, forces, residual = start, rest, np.zeros(1)
                 for _ in range(STEPS):
                     shape = forces.shape
                     change = element.forces(shape.operator, other.stress(shape.strain) - shape.elastic)
-                    step = -factor.solve(sheet.reduce(shape, left + sheet.scatter(change)))
+                    step = -factor.solve(sheet.reduce(shape, residual + sheet.scatter(change)))
                     state = StaticState(static.advance(state, forces, 1.0, step).q)
                     forces = static.forces(state, 1.0)
-                    left = forces.residual
-                after = sheet.displacement(state.q - start.q)
-                moved.append(sheet.sample(after, scene.probe_points()))
+                    residual = forces.residual
+                change_of_nodes = sheet.displacement(state.q - start.q)
+                moved.append(sheet.sample(change_of_nodes, scene.probe_points()))
         except SingularMatrixError:
             return None
     largest = np.abs(answer.displacement(scene.probe_points())).max()
-    farthest = max(float(np.abs(each).max()) for each in moved)
+    farthest = max(float(np.abs(displacement).max()) for displacement in moved)
     return farthest / float(largest) if largest > 0.0 and np.isfinite(farthest) else None

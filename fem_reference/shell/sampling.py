@@ -1,4 +1,4 @@
-"""The sampled strains of the shell's elements and their derivatives, as compiled loops.
+"""Sampled strains of the shell's elements and their derivatives, as compiled loops.
 
 At every in-plane point k, with a and b slopes of the shape functions there, φ the nine positions and d the
 nine directors of an element,
@@ -18,12 +18,12 @@ import numpy as np
 from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import REORDERED, inner, njit
 
-PLANE, SHEARED = 21, 12  # in-plane points, and those of them that have shear
+PLANE, SHEARED = 21, 12  # in-plane points, of which the first ones have shear
 
 
 @njit(fastmath=REORDERED)
 def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np.ndarray:
-    """Σ |B| |s| over elements, strains and components (18,)."""
+    """Return Σ |B| |s| (18,) over elements, strains and components."""
     strains = tables.shape[1]
     out, gradient, at = zeros(18), zeros((strains, 18, 3)), empty((6, strains))
     for e in range(len(vectors)):
@@ -37,8 +37,7 @@ def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> n
 
 @inner(fastmath=REORDERED)
 def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.ndarray) -> None:
-    """B (54, 18, 3) of one element into zeros, whose membrane strains leave the directors' part alone; at:
-    room (6, 54)."""
+    """Write B (54, 18, 3) of one element into zeros, without the zero parts; at: scratch (6, 54)."""
     _weighed(vectors, tables, at)
     for k in range(PLANE):
         b = PLANE + k
@@ -61,7 +60,7 @@ def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.nda
 
 @njit(fastmath=REORDERED)
 def strain_of(vectors: np.ndarray, step: np.ndarray, tables: np.ndarray) -> np.ndarray:
-    """B δQ (m, 54) of a step (m, 18, 3) from the vectors."""
+    """Return B δQ (m, 54) of a step (m, 18, 3) from the vectors."""
     strains = tables.shape[1]
     out = zeros((len(step), strains))
     at, by = empty((6, strains)), empty((6, strains))
@@ -84,10 +83,10 @@ def strain_of(vectors: np.ndarray, step: np.ndarray, tables: np.ndarray) -> np.n
 
 @njit(fastmath=REORDERED)
 def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np.ndarray:
-    """Bᵀ s (m, 18, 3) of stresses (m, 54); of a step in place of the vectors, what it adds to Bᵀ s."""
+    """Return Bᵀ s (m, 18, 3) of stresses (m, 54); with a step in place of the vectors, its change of Bᵀ s."""
     strains = tables.shape[1]
     out, at = empty((len(vectors), 18, 3)), empty((6, strains))
-    on_places, on_turns = zeros(strains), zeros(strains)  # what multiplies the tables, of φ and of d
+    on_places, on_turns = zeros(strains), zeros(strains)  # factors of the tables, of φ and of d
     for e in range(len(vectors)):
         _weighed(vectors[e], tables, at)
         pull = stress[e]
@@ -110,19 +109,19 @@ def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np
 
 @inner(fastmath=REORDERED)
 def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
-    """Sums of one element's vectors (18, 3) with the tables, of positions and then of directors, (6, 54)."""
+    """Write sums (6, 54) of one element's vectors (18, 3) with the tables, positions then directors."""
     for row in range(6):
         v, total = vectors[9 * (row // 3) : 9 * (row // 3) + 9, row % 3], out[row]
         for k in range(len(total)):
-            one = 0.0
+            entry = 0.0
             for i in range(9):
-                one += tables[i, k] * v[i]
-            total[k] = one
+                entry += tables[i, k] * v[i]
+            total[k] = entry
 
 
 @inner(fastmath=REORDERED)
 def _gathered(tables: np.ndarray, by: np.ndarray, out: np.ndarray) -> None:
-    """Sums (9,) over the points of the tables with what multiplies them (54,)."""
+    """Write sums (9,) over the points of the tables times factors (54,)."""
     for i in range(9):
         total = 0.0
         for k in range(len(by)):

@@ -1,11 +1,12 @@
-"""The tangent of the shell's elements in their unknowns, as compiled loops.
+"""Tangent of the shell's elements in their unknowns, as compiled loops.
 
 Unknowns of an element are the displacements of its nine nodes, then two rotations β of nine directors: a
-director turns in its tangent plane, δd = T β. With B on them, (54, 45), and D by parts, these coupled or not,
+director turns in its tangent plane, δd = T β. The tangent, with B (54, 45) on the unknowns and D by coupled
+or uncoupled parts, is
 
     K = Bᵀ D B + Σ s_k H_k ⊗ I,
 
-of which the lower triangle is formed; membrane strains have nothing to do with rotations.
+of which the lower triangle is formed; membrane strains do not depend on rotations.
 """
 
 from __future__ import annotations
@@ -16,9 +17,9 @@ from fem_reference.shell.sampling import PLANE, sampled
 from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import REORDERED, njit
 
-MOVES, UNKNOWNS = 27, 45  # of an element: displacements, and with them rotations
-AT_ONCE = 3  # strains and unknowns that are gone through together, whose numbers by part it divides
-LANES = 4  # numbers in a vector instruction: loops go on to whole vectors, into columns that nothing looks at
+MOVES, UNKNOWNS = 27, 45  # of an element: displacements; displacements and rotations
+AT_ONCE = 3  # strains and unknowns of a block; it divides their numbers by part
+LANES = 4  # numbers in a vector instruction: loops go on to whole vectors, into unused columns
 FEW, ALL = -(-MOVES // LANES) * LANES, -(-UNKNOWNS // LANES) * LANES
 
 
@@ -34,9 +35,9 @@ def add_tangents(
     slots: np.ndarray,
     data: np.ndarray,
 ) -> None:
-    """Add K of elements with vectors (m, 18, 3), D (m, 54, 54) and Σ s_k H_k (m, 9, 18), rows of positions,
-    to the data of a matrix, at slots (m, 45, 45), −1 for none; frames: T (n, 3, 2) of all nodes; nodes:
-    (m, 9); tables: of `sampling`."""
+    """Add K of elements to the data of a matrix, at slots (m, 45, 45), −1 for none. Elements have vectors (m,
+    18, 3), D (m, 54, 54) and Σ s_k H_k (m, 9, 18), rows of positions; frames: T (n, 3, 2) of all nodes;
+    nodes: (m, 9); tables: of `sampling`."""
     plane, strains = PLANE, tables.shape[1]
     gradient, at = zeros((strains, 54)), empty((6, strains))
     weighed, lower = empty((strains, ALL)), empty((UNKNOWNS, ALL))
@@ -68,8 +69,8 @@ def add_tangents(
 
 @njit(inline="always")
 def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: np.ndarray) -> None:
-    """Adds D B; blocks of D that are zero, as many are where sides lie along the axes, are left out, and so
-    are rotations in the rows of membrane strains."""
+    """Add D B, without rotations in the rows of membrane strains. Blocks of D that are zero are left out:
+    they are many where sides lie along the axes."""
     for k in range(0, len(out), AT_ONCE):
         columns = FEW if k < PLANE else ALL
         start, end = k // PLANE * PLANE, min((k // PLANE + 1) * PLANE, len(out))
@@ -81,7 +82,7 @@ def _add_weighed(moduli: np.ndarray, coupled: bool, gradient: np.ndarray, out: n
 
 @njit(inline="always")
 def _add_product(gradient: np.ndarray, weighed: np.ndarray, lower: np.ndarray) -> None:
-    """Adds Bᵀ (D B) to the lower triangle; membrane strains have no rotations."""
+    """Add Bᵀ (D B) to the lower triangle; membrane strains have no rotations."""
     for i in range(0, UNKNOWNS, AT_ONCE):
         for k in range(0 if i < MOVES else PLANE, len(gradient), AT_ONCE):
             _add_block(gradient.T, i, k, weighed, lower, -(-(i + AT_ONCE) // LANES) * LANES)
@@ -89,8 +90,7 @@ def _add_product(gradient: np.ndarray, weighed: np.ndarray, lower: np.ndarray) -
 
 @njit(inline="always")
 def _add_block(a: np.ndarray, i: int, k: int, b: np.ndarray, out: np.ndarray, columns: int) -> None:
-    """Adds what the block of a at i, k has in the product a b, to its rows' first columns, unless it is
-    zero."""
+    """Add the product of the 3 × 3 block of a at i, k with rows of b to `out`, unless the block is zero."""
     a00, a01, a02 = a[i, k], a[i, k + 1], a[i, k + 2]
     a10, a11, a12 = a[i + 1, k], a[i + 1, k + 1], a[i + 1, k + 2]
     a20, a21, a22 = a[i + 2, k], a[i + 2, k + 1], a[i + 2, k + 2]

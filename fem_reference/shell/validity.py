@@ -1,4 +1,4 @@
-"""What the shell watches for in its own answers: elements turned inside out or stretched, strains too large.
+"""Validity of a shell's answer: elements turned inside out or stretched, strains too large.
 
 inverted   (φ,r × φ,s) · d, positive in the flat sheet, has reached zero at a Gauss point.
 strained   the mid-surface stretched, or the sheet too heavy, for a linear law (`scenes.outside_model`).
@@ -11,9 +11,9 @@ stretched  In an element of sides b ≥ l the membrane shear's assumed strains d
 
            elements may lose stability, not the sheet. One-edge-clamped sheets of h/a from 0.01 to 0.1 on
            graded meshes with b/l from 10 to 20 lose it from 19 on, none below; with the twist projected like
-           the membrane shear, which leaves ψ as free as v, from 9 on. From 5 on the tangent decides. Only
-           where it has lost stability is the sheet divided evenly, b/l = 1, which stands any strain of the
-           model.
+           the membrane shear, which leaves ψ as free as v, from 9 on. Above 5 the stability of the tangent is
+           checked. Only where it is lost is the sheet divided evenly, b/l = 1, which is stable at any strain
+           of the model.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from sheetbench.numerics.continuation.stability import stability
 
 STRETCH_LIMIT = 5.0
 STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")
-FLAT = 1e-6  # of the element's area in the flat sheet, below which it counts as turned inside out
+FLAT = 1e-6  # share of the element's area in the flat sheet below which it counts as turned inside out
 
 
 def stretched(path: Path[StaticState, Forces]) -> Fault | None:
-    """Return why a step of a path on stretched elements is given up, which may be stretched without harm."""
+    """Return the fault that rejects a step of a path; stretched elements count only if unstable."""
     shape = shape_of(path)
     element, thickness = shape.sheet.element, shape.sheet.scene.sheet.thickness
     fault = inspected(path)
@@ -44,11 +44,10 @@ def stretched(path: Path[StaticState, Forces]) -> Fault | None:
 
 
 def inverted(element: Element, change: np.ndarray) -> str:
-    """A sentence on the element that has turned inside out most, "" for none; change: of the elements'
-    vectors (m, 18, 3)."""
+    """Return a sentence on the element that is turned inside out most, by a change (m, 18, 3), or ""."""
     value, slope = AT_GAUSS
-    now = element.reference + change
-    along, across, director = slope[0] @ now[:, :9], slope[1] @ now[:, :9], value @ now[:, 9:]
+    current = element.reference + change
+    along, across, director = slope[0] @ current[:, :9], slope[1] @ current[:, :9], value @ current[:, 9:]
     area = (np.cross(along, across) * director).sum(axis=2)
     share = (area / element.flat_jacobian).min(axis=1)
     worst = int(np.argmin(share))
@@ -59,20 +58,19 @@ def inverted(element: Element, change: np.ndarray) -> str:
 
 
 def stretch(element: Element, strain: np.ndarray, thickness: float) -> float:
-    """The largest (h κ/2) (b/l)² of all elements of strains (m, 54), κ the curvature along their shorter
-    side."""
+    """Return the largest (h κ/2) (b/l)² of strains (m, 54), κ along an element's shorter side."""
     sides, bent = element.sides, np.abs(_along(strain[:, BENDING])).max(axis=2)
     surface = 0.5 * thickness * bent / (0.5 * sides) ** 2
     return float(np.max(surface * (sides[:, ::-1] / sides) ** 2))
 
 
 def membrane_strain(element: Element, strain: np.ndarray) -> float:
-    """The mid-surface's largest stretching along an element's sides, √(1 + 2 E) − 1 of Green's strain E, of
-    strains (m, 54)."""
+    """Return the mid-surface's largest stretching √(1 + 2 E) − 1 along elements' sides, of strains (m,
+    54)."""
     green = _along(strain[:, MEMBRANE]).mean(axis=2) / (0.5 * element.sides) ** 2
     return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + 2.0 * green, 0.0)) - 1.0)))
 
 
 def _along(samples: np.ndarray) -> np.ndarray:
-    """Of samples (m, 21) those along r and along s, (m, 2, 6)."""
+    """Return the samples along r and along s, (m, 2, 6), of samples (m, 21)."""
     return samples[:, :12].reshape(-1, 2, 6)

@@ -1,4 +1,4 @@
-"""The discrete solid: three coordinates a node, whose mass is ∫ ρ N N dV; no constraint of it is curved.
+"""Discrete solid: three coordinates a node, with the mass ∫ ρ N N dV and linear constraints.
 
 q: displacements of all nodes, (n, levels, 3), then changes of the rods' own vectors. Held components c of a
 column, u = Z c (see `supports`), go to their targets in the first step.
@@ -6,13 +6,13 @@ column, u = Z c (see `supports`), go to their targets in the first step.
     ∫ S(E) : δE dV = δ(loads),    E = ½ (Fᵀ F − 1)
 
 total Lagrangian, on 27-node bricks that lock neither in a thin sheet nor as ν → ½ (`element`). At every edge
-the solid has a layer as wide as the sheet is thick: at a free one the twisting stress turns round, at a clamp
-the Poisson contraction is stopped. On a uniform mesh much coarser than that, answers converge like 1/n (a
-full clamp's stress is singular besides): the mesh is graded towards the edges.
+the solid has a layer as wide as the sheet is thick: at a free edge the twisting stress turns round, at a
+clamp the Poisson contraction is stopped. On a uniform mesh much coarser than the layer, answers converge like
+1/n (a full clamp's stress is singular besides): the mesh is graded towards the edges.
 
 Loads act on the sheet as a surface, its mean position x̄ and director D (see `mesh`), with the shell's
 work: a dead force or the pressure on x̄ is a body force uniform through the thickness, an edge moment
-on D a traction linear in ζ. To first order in the strain the power of pressure and moment is the shell's.
+on D a traction linear in ζ. The power of pressure and moment is the shell's to first order in the strain.
 Rods along edges (see `rods`) are further elements with directors of their own.
 """
 
@@ -54,13 +54,13 @@ from sheetbench.scenes import Scene
 
 
 class DiscreteSolid(DiscreteElements):
-    """A scene's solid on columns of bricks, layer by layer over the elements of a plan mesh of straight-sided
-    quadrilaterals, at rest unless it is moving."""
+    """Solid of a scene on columns of bricks, layer by layer over a plan mesh of straight-sided
+    quadrilaterals. It is at rest unless it is moving."""
 
     model = "solid"
     norm: ClassVar[int] = 2
     element: Bricks
-    _share = np.nan  # of the frames that are kept
+    _share = np.nan  # load factor of the frames that are kept
 
     def __init__(
         self,
@@ -78,8 +78,8 @@ class DiscreteSolid(DiscreteElements):
         self.any_strain = not LAWS[law].quadratic
         self.sites = columns.bricks
         positions = columns.positions.reshape(-1, 3)[self.sites]
-        self.element, self.natural = at_rest(plain := Bricks.build(positions, LAWS[law], material), scene)
-        self._products = plain.products
+        self.element, self.natural = at_rest(drawn := Bricks.build(positions, LAWS[law], material), scene)
+        self._products = drawn.products
 
         bound = self.bound_rods()
         self.column_supports = of_scene(scene, columns, clamp, bound.rods)
@@ -87,12 +87,12 @@ class DiscreteSolid(DiscreteElements):
         self.held = self.column_supports.held.ravel()
         self._turned = self.column_supports.turned[columns.plan.elements].any(axis=1)
         self._held_aside = np.repeat(bound.held, 3)
-        every = ~np.concatenate([self.held, self._held_aside])
-        self._free = np.flatnonzero(every)
-        number = np.where(every, np.cumsum(every) - 1, -1).reshape(-1, 3)  # of all vectors
+        is_free = ~np.concatenate([self.held, self._held_aside])
+        self._free = np.flatnonzero(is_free)
+        number = np.where(is_free, np.cumsum(is_free) - 1, -1).reshape(-1, 3)  # of all vectors
         kinds = (number[s].reshape(len(s), 3 * s.shape[1]) for s in (columns.stacks, bound.sites))
         self.pattern = pattern_of(self.places(bound), *kinds, size=len(self._free))
-        self.unknowns, self.size, self.first_director = len(self._free), every.size, len(self.held)
+        self.unknowns, self.size, self.first_director = len(self._free), is_free.size, len(self.held)
         levels = columns.levels
         places = np.concatenate([levels * np.arange(3) + columns.layers, 3 * levels + np.arange(6)])
         self.bind(bound, places)
@@ -102,7 +102,7 @@ class DiscreteSolid(DiscreteElements):
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """∫ ρ N N dV of the stacks, with what payloads add to columns' means and directors, (m, 3 s, 3 s)."""
+        """∫ ρ N N dV (m, 3 s, 3 s) of the stacks, with the payloads on columns' means and directors."""
         blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
         if self.scene.masses:
             add_carried(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))
@@ -114,24 +114,24 @@ class DiscreteSolid(DiscreteElements):
         sites = (3 * self.columns.stacks[:, :, None] + np.arange(3)).reshape(len(self._inertia), -1)
         return Pattern(sites, size=self.size).matrix(self._inertia)
 
-    # what is prescribed, and the unknowns
+    # prescribed displacements and the unknowns
 
     def frame(self, q: np.ndarray, at: float) -> np.ndarray:
-        """Z of the columns (n, 3 levels, 3 levels)."""
+        """Return Z of the columns (n, 3 levels, 3 levels)."""
         return self._frames(at)[0]
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
         return self._frames(at)[1]
 
     def _frames(self, at: float) -> tuple[np.ndarray, csc_matrix]:
-        """Z of the columns, and of all vectors; those of the last share are kept."""
+        """Return Z of the columns, and of all vectors; both are kept for the last load factor."""
         share = self.instant(at)[0] if self.supports.driven else 1.0
         if share != self._share:
             bases = self.column_supports.bases(share)
             blocks, aside = np.arange(len(bases) + 1), identity(len(self._held_aside))
             of_columns = bsr_matrix((bases, blocks[:-1], blocks))
-            every = block_diag([of_columns, aside], format="csc")[:, self._free]
-            self._share, self._kept_frames = share, (bases, every)
+            of_all = block_diag([of_columns, aside], format="csc")[:, self._free]
+            self._share, self._kept_frames = share, (bases, of_all)
         return self._kept_frames
 
     def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
@@ -143,13 +143,13 @@ class DiscreteSolid(DiscreteElements):
         return self._to_supports(shape.frame, shape.q, target)
 
     def _to_supports(self, bases: np.ndarray, q: np.ndarray, target: np.ndarray) -> np.ndarray:
-        """The step (N,) of q (N,) to the held components of a target (n, levels, 3)."""
+        """Return the step (N,) from q (N,) to the held components of a target (n, levels, 3)."""
         gap = applied(np.linalg.inv(bases), target - self._on_columns(q))
         step = applied(bases, np.where(self.column_supports.held, gap, 0.0))
         return np.append(step, np.where(self._held_aside, -q[self.first_director :], 0.0))
 
     def _on_columns(self, q: np.ndarray) -> np.ndarray:
-        """The columns' part (n, levels, 3)."""
+        """Return the columns' part (n, levels, 3) of q."""
         return self.displacement(q).reshape(self.columns.positions.shape)
 
     # forces
@@ -174,7 +174,7 @@ class DiscreteSolid(DiscreteElements):
         return block_diagonal([*(shape.frame[nodes[:, i]] for i in range(3)), directors])
 
     def _stack(self, of_bricks: np.ndarray) -> np.ndarray:
-        """Matrices (layers · m, 27, 3, 27, 3) of bricks summed over their stacks, (m, 3 s, 3 s)."""
+        """Return matrices (m, 3 s, 3 s) of stacks, sums of bricks' (layers · m, 27, 3, 27, 3)."""
         m, s = self.columns.stacks.shape
         out = np.zeros((m, s, 3, s, 3))
         for place, bricks in zip(self.columns.places, np.split(of_bricks, self.columns.layers), strict=True):
@@ -182,7 +182,7 @@ class DiscreteSolid(DiscreteElements):
         return out.reshape(m, 3 * s, 3 * s)
 
     def _turn(self, stacks: np.ndarray, bases: np.ndarray, on: np.ndarray) -> np.ndarray:
-        """Zᵀ K Z of the stacks over elements `on`, (k, 3 s, 3 s), in their place."""
+        """Return Zᵀ K Z (k, 3 s, 3 s) of the stacks over elements `on`, in place."""
         turned = self._turned[on]
         if not np.any(turned):
             return stacks
@@ -196,7 +196,7 @@ class DiscreteSolid(DiscreteElements):
         return stacks
 
     def _of_columns(self, tangent: np.ndarray) -> np.ndarray:
-        """Derivatives of surface forces (k, 18, 3, 18, 3) as matrices of stacks (k, 3 s, 3 s)."""
+        """Return derivatives of surface forces (k, 18, 3, 18, 3) as matrices of stacks (k, 3 s, 3 s)."""
         k, size = len(tangent), 3 * self.columns.stacks.shape[1]
         parts = tangent.reshape(k, 2, 9, 3, 2, 9, 3)
         averages = self.columns.averages
@@ -205,7 +205,7 @@ class DiscreteSolid(DiscreteElements):
 
     @cached_property
     def onto_surface(self) -> csr_matrix:
-        """Means and directors of columns."""
+        """Matrix from coordinates to means and directors of columns."""
         n, aside = self.nodes, self.size - self.first_director
         rows = (np.kron(weights, np.eye(3)) for weights in self.columns.averages[:, None])
         of_columns = vstack([kron(eye_array(n), row) for row in rows])
@@ -215,18 +215,19 @@ class DiscreteSolid(DiscreteElements):
         columns = self.column_supports.spread(np.array([displacement, turn]))
         return np.pad(columns.ravel(), (0, self.size - self.first_director))
 
-    # what is shown
+    # results and validity
 
     def inside_out(self, q: np.ndarray) -> str:
         ratio = self.element.volume_ratio(self.gather(q))
         return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
 
     def stretch(self, shape: SheetShape) -> float:
-        """Return the largest change of length along the sides of an element, √(1 + 2 E) − 1 of the mean of
-        Green's strain E over it."""
+        """Return the largest stretching √(1 + 2 E) − 1 along elements' sides, E the mean Green strain."""
         places = (self.on_surface(q)[:, :9] for q in (np.zeros_like(shape.q), shape.q))
-        rest, now = (np.sum(np.einsum("agi,eic->aegc", AT_GAUSS[1], at) ** 2, axis=3) for at in places)
-        mean = (now / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()  # 2 E, of both sides of every element
+        rest, current = (np.sum(np.einsum("agi,eic->aegc", AT_GAUSS[1], at) ** 2, axis=3) for at in places)
+        mean = (
+            (current / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()
+        )  # 2 E, of both sides of every element
         return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + mean, 0.0)) - 1.0)))
 
     def middles(self, displacement: np.ndarray) -> np.ndarray:
@@ -239,9 +240,9 @@ class DiscreteSolid(DiscreteElements):
         return self.columns.field_mesh(self._on_columns(q))
 
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
-        now, nodal = self.columns.positions + self._on_columns(q), self._on_columns(exerted)
-        middle = now[:, self.columns.layers]
-        moment = np.cross(now - middle[:, None], nodal).sum(axis=1)
+        position, nodal = self.columns.positions + self._on_columns(q), self._on_columns(exerted)
+        middle = position[:, self.columns.layers]
+        moment = np.cross(position - middle[:, None], nodal).sum(axis=1)
         return HoldingForces(np.concatenate([nodal.sum(axis=1), moment], axis=1), middle)
 
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -5,15 +5,15 @@
 λ, μ are Lamé's constants; ϑ measures the change of volume and alone grows stiff as ν → ½:
 
     St Venant–Kirchhoff   W₀ = μ E : E                        ϑ = tr E,         Λ = λ
-    of fibres             W₀ = ½ E : (C − Λ 1 ⊗ 1) : E        ϑ = tr E          (`_green_bulk`)
+    fibres                W₀ = ½ E : (C − Λ 1 ⊗ 1) : E        ϑ = tr E          (`_green_bulk`)
     rubbers               W₀ = f(x) + c₀₁ (I₂ − 3) − m ln J   ϑ = ln J,   C = 2E + 1,   J² = det C
 
-with x = I₁ − 3 = 2 tr E, I₂ − 3 = 2 x + ½ x² − 2 E : E and m = 2 f′(0) + 4 c₀₁; f, c₀₁ and Λ are those of
-`sheetbench.scenes.objects.material`.
+with x = I₁ − 3 = 2 tr E, I₂ − 3 = 2 x + ½ x² − 2 E : E and m = 2 f′(0) + 4 c₀₁;
+`sheetbench.scenes.objects.material` defines f, c₀₁ and Λ.
 
 Green–Lagrange strain E and second Piola–Kirchhoff stress in Voigt order (xx, yy, zz, 2xy, 2yz, 2xz), stresses
-without the 2. Every law is a triad: density → stress → tangent, of W₀ and of ϑ. All have the
-same small-strain limit.
+without the 2. Every law is a triad: density → stress → tangent, of W₀ and of ϑ. All have one
+small-strain limit.
 Source: Bonet & Wood, Nonlinear Continuum Mechanics (2008), ch. 6. [Pa]
 """
 
@@ -38,8 +38,9 @@ _DOUBLE = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
 
 @dataclass(frozen=True)
 class SolidLaw:
-    """distortion: material and E → triad of W₀ [Pa]; volume: E → triad of ϑ; bulk: Λ [Pa] of a material;
-    quadratic: whether W is quadratic in E, which only laws for small strains are."""
+    """Law of a solid's material, in two triads. distortion: material and E → triad of W₀ [Pa]; volume: E →
+    triad of ϑ; bulk: Λ [Pa] of a material; quadratic: whether W is quadratic in E, as in laws for small
+    strains only."""
 
     distortion: Callable[[Any, np.ndarray], Triad]
     volume: Callable[[np.ndarray], Triad]
@@ -48,14 +49,14 @@ class SolidLaw:
 
 
 def lame(material: Material | Constants) -> tuple[float, float]:
-    """λ, μ [Pa], of each element's constants where they are its own."""
+    """Return λ, μ [Pa] of a material, or of each element's own constants."""
     shear = material.young / (2.0 * (1.0 + material.poisson))
     return 2.0 * shear * material.poisson / (1.0 - 2.0 * material.poisson), shear
 
 
 def _green_bulk(material: Material | Constants) -> float:
-    """λ; of fibres K less two thirds of the mean shear modulus, 1/K the sum of all compliances of stretch:
-    what is left is positive."""
+    """Return λ; for fibres the bulk modulus K less two thirds of the mean shear modulus, at least 0. 1/K is
+    the sum of all compliances of stretch; the remaining distortional energy is positive."""
     if isinstance(material, Material) or not material.plies:
         return lame(material)[0]
     (ply,) = material.plies
@@ -75,8 +76,8 @@ def _green_distortion(material: Material | Constants, strain: np.ndarray) -> Tri
 
 
 def _green_volume(strain: np.ndarray) -> Triad:
-    none = np.broadcast_to(0.0, (*strain.shape, 6))
-    return Triad(strain @ _TRACE, np.broadcast_to(_TRACE, strain.shape), none)
+    zeros = np.broadcast_to(0.0, (*strain.shape, 6))
+    return Triad(strain @ _TRACE, np.broadcast_to(_TRACE, strain.shape), zeros)
 
 
 def _logarithmic_volume(strain: np.ndarray) -> Triad:
@@ -84,7 +85,7 @@ def _logarithmic_volume(strain: np.ndarray) -> Triad:
     c = np.zeros((*strain.shape[:-1], 3, 3))  # 2E + 1
     c[..., i, j] = c[..., j, i] = _TRACE + strain @ _DOUBLE
     inverse, determinant = np.linalg.inv(c), np.linalg.det(c)
-    with np.errstate(invalid="ignore", divide="ignore"):  # inside out: not a number, which ends the step
+    with np.errstate(invalid="ignore", divide="ignore"):  # inside out: nan, which ends the step
         value = 0.5 * np.log(determinant)
     return Triad(value, inverse[..., i, j], -_DOUBLE @ pulled_back(inverse, IN_SPACE))
 

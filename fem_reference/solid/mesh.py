@@ -1,4 +1,4 @@
-"""A plan mesh of quadrilaterals extruded into layers of 27-node bricks: columns of nodes over plan nodes.
+"""Plan mesh of quadrilaterals, extruded into layers of 27-node bricks: columns of nodes over plan nodes.
 
 Node (plan node j, level l) has the number j · levels + l, with 2 · layers + 1 levels from the bottom face to
 the top one; the middle level is the mid-surface. Through the thickness the fields are piecewise quadratic,
@@ -34,8 +34,8 @@ MOST_BRICKS = 12  # through the thickness of a laminate
 
 @dataclass(frozen=True)
 class Columns:
-    """n plan nodes, extruded to a thickness [m] in layers; taper: by how much thicker each column is than
-    that, (n,), or 1."""
+    """Columns of nodes over n plan nodes, extruded to a thickness [m] in layers. taper: thickness of each
+    column over the sheet's, (n,), or 1."""
 
     plan: Plan
     thickness: float
@@ -48,12 +48,12 @@ class Columns:
 
     @cached_property
     def heights(self) -> np.ndarray:
-        """z of the levels, (levels,) [m], of columns of the sheet's thickness."""
+        """Heights z (levels,) [m] of the levels, in columns of the sheet's thickness."""
         return np.linspace(-0.5, 0.5, self.levels) * self.thickness
 
     @cached_property
     def positions(self) -> np.ndarray:
-        """Nodes by column, (n, levels, 3) [m]."""
+        """Positions (n, levels, 3) [m] of the nodes by column."""
         out = np.zeros((len(self.plan.nodes), self.levels, 3))
         out[:, :, :2] = self.plan.nodes[:, None]
         out[:, :, 2] = np.multiply.outer(self.taper, self.heights)
@@ -61,8 +61,7 @@ class Columns:
 
     @cached_property
     def averages(self) -> np.ndarray:
-        """Weights of mean and director in a column's positions, (2, levels): by Simpson's rule, exact for
-        ζ N."""
+        """Weights (2, levels) of mean and director in a column's positions (Simpson's rule)."""
         share = np.tile([2.0, 4.0], self.layers + 1)[: self.levels]
         share[[0, -1]] = 1.0
         share /= share.sum()
@@ -76,7 +75,7 @@ class Columns:
 
     @cached_property
     def places(self) -> np.ndarray:
-        """Where a stack holds the nodes of its bricks, (layers, 27), in the order of `ElementHex2`."""
+        """Indices (layers, 27) of the bricks' nodes within a stack, in the order of `ElementHex2`."""
         flat = {tuple(site): i for i, site in enumerate(ElementQuad2.doflocs)}
         column = np.array([flat[tuple(site[:2])] for site in ElementHex2.doflocs])
         level = np.rint(2.0 * ElementHex2.doflocs[:, 2]).astype(int)
@@ -88,7 +87,7 @@ class Columns:
         return self.stacks[:, self.places].swapaxes(0, 1).reshape(-1, 27)
 
     def field_mesh(self, displacement: np.ndarray) -> FieldMesh:
-        """Nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
+        """Return nodes and trilinear eighths of the bricks, with displacement (n, levels, 3) [m]."""
         plan = quarters(self.plan.elements.T)
         a, b, _, d = (self.plan.nodes[plan[:, corner]].T for corner in range(4))
         clockwise = (b - a)[0] * (d - a)[1] < (b - a)[1] * (d - a)[0]  # as scikit-fem numbers some meshes
@@ -102,8 +101,7 @@ class Columns:
 
 
 def _require_meshable(scene: Scene, law: str) -> None:
-    """Raise BadInput for a sheet with a step in its thickness, or one that is not the same all over and has
-    another law, or loads that follow it."""
+    """Raise BadInput for steps in thickness, and for nonuniform sheets with another law or follower loads."""
     if scene.uniform:
         return
     for ply in of_sheet(scene).plies:
@@ -126,8 +124,8 @@ def _require_meshable(scene: Scene, law: str) -> None:
 
 
 def bricks_through(scene: Scene, layers: int) -> int:
-    """Return how many bricks there are through the thickness: as many as requested, of a laminate at least so
-    many, with faces between all plies. Raises BadInput where those are too many."""
+    """Return the number of bricks through the thickness: as requested, or the next with faces between all
+    plies. Raises BadInput for a laminate that needs more than `MOST_BRICKS`."""
     if not scene.layers:
         return layers
     plies = of_sheet(scene).plies
@@ -142,20 +140,22 @@ def bricks_through(scene: Scene, layers: int) -> int:
 
 
 def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Constants:
-    """Return the constants of bricks, of a laminate each those of its ply; middles (layers · m, 1, 2) [m]: of
-    their plan elements, layer by layer."""
-    found = constants_at(scene, middles)
+    """Return the constants of bricks; in a laminate each brick has the constants of its ply. middles (layers
+    · m, 1, 2) [m]: centres of their plan elements, layer by layer."""
+    constants = constants_at(scene, middles)
     if not scene.layers:
-        return found
+        return constants
     heights = (np.arange(layers) + 0.5) / layers - 0.5
-    own = [next(ply for ply in found.plies if ply.low <= at <= ply.high) for at in heights]
-    values: list[Any] = [np.repeat(each, len(middles) // layers)[:, None] for each in zip(*own, strict=True)]
+    ply_at = [next(ply for ply in constants.plies if ply.low <= at <= ply.high) for at in heights]
+    values: list[Any] = [
+        np.repeat(column, len(middles) // layers)[:, None] for column in zip(*ply_at, strict=True)
+    ]
     ply = Ply(*values)
-    return found.replace(plies=(ply._replace(low=-0.5, high=0.5),), density=ply.density)
+    return constants.replace(plies=(ply._replace(low=-0.5, high=0.5),), density=ply.density)
 
 
 def columns_of(mesh: MeshQuad, scene: Scene, layers: int, law: str) -> tuple[Columns, Material | Constants]:
-    """The columns of a scene's solid over a mesh, and what its bricks are made of."""
+    """Return the columns of a scene's solid over a mesh, and the material or constants of its bricks."""
     plan, sheet, taper = plan_of(mesh), scene.sheet, np.ones(())
     require_upright(np.linalg.det(jacobians(plan.corners, AT_GAUSS[1])))
     require_law(law, LAWS, scene)

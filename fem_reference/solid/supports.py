@@ -1,24 +1,25 @@
-"""What supports hold in the solid, as a function of the load factor.
+"""Held components of the solid's nodes by supports, as a function of the load factor.
 
 Hinged and held edges hold the mean of every column along the edge, and the face turns freely about it; a
-held mid-line would be the same for a thin sheet, but for the dent of a line support, which grows without
-bound as the mesh is refined. Where a hinge holds the twist, it holds the component along the edge in the
+held mid-line would be equivalent for a thin sheet, except for the dent of a line support, which grows without
+bound as the mesh is refined. A hinge that holds the twist holds the component along the edge in the
 whole face. A clamp holds the edge's face:
 
     "shell-like"  the face stays on the director, free to change its thickness along it: the components across
                   the director are held everywhere, the one along it on the mid-line only. This is the
                   clamp of a shell, and leaves no singular corner
-    "mean"        the same, but of the component along the director the mean of every column is held: held on
-                  the mid-line alone, the shear force is a line load, and dents the face the more the finer
-                  the mesh is. Four clamps, h/a 0.12, ν 0.45: 1.3, 5.8 and 7.0 % softer than a shell with 1, 2
-                  and 4 layers (one can hardly be dented), with the mean held 1.2, 1.0 % stiffer with 2 and 4
+    "mean"        like "shell-like", but the mean of every column's component along the director is held: with
+                  the mid-line alone held, the shear force is a line load, and dents the face the more the
+                  finer the mesh is. Four clamps, h/a 0.12, ν 0.45: 1.3, 5.8 and 7.0 % softer than a shell
+                  with 1, 2 and 4 layers (one can hardly be dented), with the mean held 1.2, 1.0 % stiffer
+                  with 2 and 4
     "full"        all three components of the whole face; the strain is singular at its rims
 
 A plane of symmetry holds the component across it in the whole face.
 
-The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z); that of a
-tilted clamp and of an edge moved rigidly do likewise. The column that an actuator's base holds is held as a
-clamp holds it. A column's displacements are u = Z q, with q the components that are held or free: along the
+The face of a rod bent by λκ follows the rod's director: held values are u = u_rod + ζ (d − e_z); the face of
+a tilted clamp and of an edge moved rigidly follows its director too. An actuator's base holds its column as a
+clamp does. A column's displacements are u = Z q, with q the components that are held or free: along the
 face's axes (across the edge, along it, d), and on a hinged or held edge, and where clamps hold it, with the
 column's mean in place of its middle node.
 """
@@ -44,8 +45,8 @@ CLAMPS = ("shell-like", "mean", "full")
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """edges: name → components q that it holds (n, levels, 3); by_mean: (n,), columns of which the mean is
-    held."""
+    """Held components of columns. edges: name → components q that it holds (n, levels, 3); by_mean: (n,),
+    columns whose mean is held."""
 
     line: Supports
     columns: Columns
@@ -54,17 +55,17 @@ class ColumnSupports:
 
     @cached_property
     def held(self) -> np.ndarray:
-        """Components q that anything holds (n, levels, 3)."""
+        """Components q held by any support (n, levels, 3)."""
         return sum(self.edges.values(), np.zeros(self.columns.positions.shape, dtype=bool))
 
     def spread(self, change: np.ndarray) -> np.ndarray:
-        """Displacement (n, levels, 3) [m] of columns whose middles and directors change so (2, n, 3)."""
+        """Return columns' displacement (n, levels, 3) [m] from changes (2, n, 3) of middles and directors."""
         displacement, turn = change
         heights = np.multiply.outer(self.columns.taper, self.columns.heights)
         return displacement[:, None] + heights[..., None] * turn[:, None]
 
     def bases(self, load_factor: float) -> np.ndarray:
-        """Z (n, 3 levels, 3 levels) of every column."""
+        """Return Z (n, 3 levels, 3 levels) of every column."""
         levels, middle = self.columns.levels, self.columns.layers
         axes = np.tile(np.eye(3), (len(self.by_mean), 1, 1))
         for driven in self.line.driven:
@@ -77,14 +78,14 @@ class ColumnSupports:
 
     @property
     def turned(self) -> np.ndarray:
-        """Plan nodes (n,) whose Z is not the identity."""
-        on = self.by_mean.copy()
+        """Mask (n,) of plan nodes whose Z is not the identity."""
+        mask = self.by_mean.copy()
         for driven in self.line.driven:
-            on[driven.nodes] = True
-        return on
+            mask[driven.nodes] = True
+        return mask
 
     def reactions(self, nodal: np.ndarray, load_factor: float) -> dict[str, np.ndarray]:
-        """Force [N] (3,) of each support from nodal ones (n, levels, 3); what several hold they share."""
+        """Return the force [N] (3,) of each support from nodal forces; supports share a component."""
         bases = self.bases(load_factor)
         shared = applied(bases.swapaxes(1, 2), nodal) / np.maximum(sum(self.edges.values()), 1)
         levels = self.columns.levels
@@ -95,12 +96,12 @@ class ColumnSupports:
 
 
 def applied(matrices: np.ndarray, nodal: np.ndarray) -> np.ndarray:
-    """Matrices (n, 3 levels, 3 levels) times what columns have, (n, levels, 3): u = Z q, and Zᵀ r on q."""
+    """Return products of matrices (n, 3 levels, 3 levels) with (n, levels, 3): u = Z q, or Zᵀ r."""
     return (matrices @ nodal.reshape(*matrices.shape[:2], 1)).reshape(nodal.shape)
 
 
 def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = ()) -> ColumnSupports:
-    """The supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
+    """Return the supports of a scene; rods: of its actuators. Raises BadInput for an unknown clamp."""
     require_choice("clamp", clamp, CLAMPS)
     line = hold_bases(supports.of_scene(scene, columns.plan), rods)
     kinds, edges = named(scene.supports), {}
@@ -108,7 +109,7 @@ def of_scene(scene: Scene, columns: Columns, clamp: str, rods: Sequence[Rod] = (
     for name, on_line in line.edges.items():
         edges[name] = held = np.zeros(columns.positions.shape, dtype=bool)
         held[:, columns.layers], nodes = on_line, on_line.any(axis=1)
-        support = kinds.get(name)  # None of motions and of rods' bases, which hold as clamps do
+        support = kinds.get(name)  # None for motions and rods' bases, which hold like clamps
         if support is None or holds_director(support):
             held[nodes, :, : 3 if clamp == "full" else 2] = True
             by_mean[nodes] |= clamp == "mean"

@@ -1,1 +1,1 @@
-"""What the models of a surface share: meshes, loads, supports, rods along edges, points on the sheet."""
+"""Parts shared by the models of a surface: meshes, loads, supports, rods along edges, points on it."""

@@ -1,10 +1,10 @@
-"""What actuators exert on the sheet: a rod's line force and couple along the edge, summed by segments.
+"""Forces of actuators on the sheet: a rod's line force and couple along the edge, summed by segments.
 
-Nodal forces F of the rod on the sheet are those of a line force q with ∫ N q ds = F, of second order along a
-side; couples likewise from the pull on the directors, d × f_d. A segment's share is the force and the moment
-about its middle, on the rod's axis, that it exerts on the sheet [N, N·m]. A prescribed motion is one segment,
-its moment about the edge's middle; chains that act as one share its forces evenly, as motions share those
-of a common corner.
+The line force q is quadratic along a side, with ∫ N q ds = F for the nodal forces F of the rod on the sheet;
+couples follow in this way from the pull on the directors, d × f_d. A segment's share is its force and its
+moment about the segment's middle, on the rod's axis, on the sheet [N, N·m]. A prescribed motion is one
+segment, its moment about the edge's middle; chains that act as one share its forces evenly, as motions share
+the forces of a common corner.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from sheetbench.scenes import Scene
 
 
 class OnEdge(NamedTuple):
-    """A rod and what it exerts: force and couple (p, 6) [N, N·m] on the nodes of its edge, which are at
-    position φ (p, 3) [m] with directors d (p, 3)."""
+    """Rod with force and couple (p, 6) [N, N·m] on its edge's nodes, at φ (p, 3) [m] with directors d (p,
+    3)."""
 
     rod: Rod
     nodal: np.ndarray
@@ -31,7 +31,7 @@ class OnEdge(NamedTuple):
 
 
 class HoldingForces(NamedTuple):
-    """What holds the sheet at its n nodes: force and couple (n, 6) [N, N·m], position (n, 3) [m]."""
+    """Force and couple (n, 6) [N, N·m] that hold the sheet at its nodes, and their positions (n, 3) [m]."""
 
     nodal: np.ndarray
     position: np.ndarray
@@ -40,21 +40,21 @@ class HoldingForces(NamedTuple):
 def exerted(
     scene: Scene, edges: Iterable[OnEdge], moved: dict[str, Driven], held: HoldingForces
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Name of an actuator → force and moment (segments, 6) [N, N·m] of its segments on the sheet; the rods'
-    line force (n, 3) [N/m], zero off their edges."""
-    found, line = {}, np.zeros_like(held.position)
+    """Return each actuator's wrench on the sheet, and the rods' line force (n, 3) [N/m], zero off their
+    edges. A wrench is the force and moment (segments, 6) [N, N·m] of its segments, by the actuator's name."""
+    wrenches, line = {}, np.zeros_like(held.position)
     for rod, nodal, position, director in edges:
-        if rod.base is not None:  # what holds the base reaches the sheet through the rod
+        if rod.base is not None:  # the base's holding force reaches the sheet through the rod
             nodal[rod.base] += held.nodal[rod.line[rod.base]]
         share = by_segment(rod, nodal, position, director) / len(rod.chains)
-        found.update(dict.fromkeys(rod.chains, share))
+        wrenches.update(dict.fromkeys(rod.chains, share))
         line[rod.line] += line_force(rod, nodal)[0]
-    found |= {name: _of_motion(motion, held) for name, motion in moved.items()}
-    return {name: found[name] for name in scene.named_actuators()}, line
+    wrenches |= {name: _of_motion(motion, held) for name, motion in moved.items()}
+    return {name: wrenches[name] for name in scene.named_actuators()}, line
 
 
 def _of_motion(moved: Driven, held: HoldingForces) -> np.ndarray:
-    """Force and moment about the edge's middle, (1, 6)."""
+    """Return force and moment about the edge's middle, (1, 6)."""
     nodal, position = moved.part[:, None] * held.nodal[moved.nodes], held.position[moved.nodes]
     arm = position - 0.5 * (position.min(axis=0) + position.max(axis=0))
     moment = np.cross(arm, nodal[:, :3]) + nodal[:, 3:]
@@ -62,7 +62,7 @@ def _of_motion(moved: Driven, held: HoldingForces) -> np.ndarray:
 
 
 def line_force(rod: Rod, nodal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Line force [N/m] and couple [N·m/m] (p, 3) of forces and couples (p, 6) on the nodes of the edge."""
+    """Return line force [N/m] and couple [N·m/m] (p, 3) from nodal forces and couples (p, 6) of the edge."""
     count = len(rod.line)
     mass = np.zeros((count, count))
     half = 0.5 * np.linalg.norm(rod.elements.reference[:, 2] - rod.elements.reference[:, 0], axis=1)
@@ -72,14 +72,12 @@ def line_force(rod: Rod, nodal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def by_segment(rod: Rod, nodal: np.ndarray, position: np.ndarray, director: np.ndarray) -> np.ndarray:
-    """Force and moment (segments, 6) [N, N·m] on the sheet, of its nodal ones (p, 6) where the nodes are.
-
-    position, director: φ [m] and d (p, 3) at the nodes of the edge.
-    """
+    """Return force and moment (segments, 6) [N, N·m] on the sheet, from nodal ones (p, 6). position,
+    director: φ [m] and d (p, 3) at the nodes of the edge."""
     force, couple = line_force(rod, nodal)
-    at, segments = np.empty((len(rod.line), 2)), rod.chain.segments
-    at[rod.places] = rod.elements.reference[:, :3, :2]
-    along = at[:, np.argmax(np.ptp(at, axis=0))]
+    points, segments = np.empty((len(rod.line), 2)), rod.chain.segments
+    points[rod.places] = rod.elements.reference[:, :3, :2]
+    along = points[:, np.argmax(np.ptp(points, axis=0))]
     bounds = np.linspace(along[0], along[-1], segments + 1)
     cuts = np.unique(np.concatenate([bounds, along[::2]]))  # smooth between
     half = 0.5 * np.diff(cuts)[:, None]
@@ -95,7 +93,7 @@ def by_segment(rod: Rod, nodal: np.ndarray, position: np.ndarray, director: np.n
 
 
 def _shapes(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Values (n, p) at places (n,) [m] of the shape functions of sides whose nodes (p,) [m] rise."""
+    """Return values (n, p) at places (n,) [m] of the shape functions of sides whose nodes (p,) [m] rise."""
     first = 2 * np.clip(np.searchsorted(nodes[::2], places) - 1, 0, len(nodes) // 2 - 1)
     xi = 2.0 * (places - nodes[first]) / (nodes[first + 2] - nodes[first]) - 1.0
     out = np.zeros((len(places), len(nodes)))

@@ -1,8 +1,8 @@
-"""Plans brought into one place however they are mirrored, turned or large, so that their meshes are alike.
+"""Canonical placement of plans, so that mirrored, turned or scaled plans have equal meshes.
 
-Of the eight ways to lay a plan along the axes the last is taken, its sides in order compared number by number
-after rounding. A plan that is its own mirror image across x, y or a diagonal is meshed on one side of that
-line alone: its mesh is its own image too. Of one that is its own image only when turned, the borders and
+There are eight ways to lay a plan along the axes; the last is taken, by comparing its ordered sides number by
+number after rounding. A plan that is its own mirror image across x, y or a diagonal is meshed on one side of
+that line alone: its mesh is its own image too. If a plan is its own image only when turned, the borders and
 points of one sector are turned into the others. Lengths are in sizes of the largest triangles.
 """
 
@@ -21,16 +21,16 @@ if TYPE_CHECKING:
     from shapely import LineString
     from shapely.geometry.base import BaseGeometry
 
-DIGITS = 9  # of rounding, of `mesh_points.GRID`
+DIGITS = 9  # of rounding, as in `mesh_points.GRID`
 FLIPS = [np.diag([x, y]) for x in (1.0, -1.0) for y in (1.0, -1.0)]
 TURNS = [flip @ swap for swap in (np.eye(2), np.eye(2)[::-1]) for flip in FLIPS]
-FIRST = np.array([np.cos(1.0), np.sin(1.0)])  # an angle at random
-DIAGONALS = np.sqrt(0.5) * np.array([[1.0, -1.0], [1.0, 1.0]])  # normals of mirrors, towards what is meshed
+FIRST = np.array([np.cos(1.0), np.sin(1.0)])  # an arbitrary angle
+DIAGONALS = np.sqrt(0.5) * np.array([[1.0, -1.0], [1.0, 1.0]])  # normals of mirrors, towards the meshed part
 
 
 class PlanCells(NamedTuple):
-    """Quadrilaterals (q, 4) and triangles (t, 3) of points (n, 2), counter-clockwise; across: (t,) the number
-    of the mirror that a triangle's first side lies on, where it is to be joined with its image; else −1."""
+    """Quadrilaterals (q, 4) and triangles (t, 3) of points (n, 2), counter-clockwise. across: (t,) the number
+    of the mirror under a triangle's first side, where it is to be joined with its image; else −1."""
 
     points: np.ndarray
     quads: np.ndarray
@@ -39,9 +39,9 @@ class PlanCells(NamedTuple):
 
 
 class CentredPlan(NamedTuple):
-    """A plan about the origin, and what leads back from there: x = p turn + centre; mirrors: normals of lines
-    through the origin across which it is its own image, in the order of unfolding; turns (n, 2, 2): where
-    there are none, those that lead it to itself, the identity first."""
+    """Plan about the origin, with the map back: x = p turn + centre. mirrors: normals of lines through the
+    origin across which it is its own image, in the order of unfolding; turns (n, 2, 2): where there are no
+    mirrors, the rotations that map it to itself, the identity first."""
 
     region: BaseGeometry
     inner: BaseGeometry
@@ -63,41 +63,41 @@ class CentredPlan(NamedTuple):
         return _rounded(region), _rounded(inner)
 
     def images(self, at: np.ndarray) -> np.ndarray:
-        """Points (k, 2) by all turns (k, n, 2)."""
+        """Return the images (k, n, 2) of points (k, 2) by all turns."""
         return np.asarray((self.turns @ at[:, None, :, None])[..., 0])
 
     def along(self, at: np.ndarray) -> np.ndarray:
-        """How far along FIRST the images of points (k, 2) lie (k, n), the farthest in the first sector."""
+        """Return coordinates along FIRST (k, n) of the images of points (k, 2)."""
         return np.asarray(self.images(at) @ FIRST)
 
     def first(self, at: np.ndarray) -> np.ndarray:
-        """Which of points (k, 2) lie in the first sector."""
+        """Return a mask (k,) of points (k, 2) in the first sector."""
         return np.asarray(self.along(at).argmax(axis=1) == 0)
 
     def orbits(self, at: np.ndarray) -> np.ndarray:
-        """Those of points (k, 2) in the first sector, by all turns (m, n, 2)."""
+        """Return the images (m, n, 2) by all turns of the points (k, 2) in the first sector."""
         return self.images(at[self.first(at)])
 
     def turned(self, borders: Sequence[LineString]) -> list[LineString]:
-        """The borders in the first sector, and an nth part of each around the centre, by all turns."""
+        """Return the images by all turns of borders in the first sector, and of parts around the centre."""
         import shapely
         from shapely.ops import substring
 
         middle = shapely.get_coordinates(shapely.centroid(borders))
         shares = np.where(np.hypot(*middle.T) < NEAR, 1.0 / len(self.turns), self.first(middle))
         pairs = zip(borders, shares.tolist(), strict=True)
-        own = [substring(line, 0.0, share, normalized=True) for line, share in pairs if share]
-        at = [self.images(shapely.get_coordinates(line)).swapaxes(0, 1) for line in own]
-        return [shapely.LineString(image) for images in at for image in images]
+        in_sector = [substring(line, 0.0, share, normalized=True) for line, share in pairs if share]
+        copies = [self.images(shapely.get_coordinates(line)).swapaxes(0, 1) for line in in_sector]
+        return [shapely.LineString(image) for images in copies for image in images]
 
     def cut(self, borders: Sequence[LineString]) -> tuple[np.ndarray, np.ndarray]:
-        """Which borders of the part are none of the plan, but lie where a mirror cuts it, and the mirror's
-        number, where that is a diagonal; −1 else."""
+        """Return a mask of the part's borders that lie on a mirror and are no borders of the plan, and the
+        mirrors' numbers. The number is −1 unless the mirror is a diagonal."""
         import shapely
 
-        own = shapely.union_all([self.region.boundary, self.inner])
+        plan_borders = shapely.union_all([self.region.boundary, self.inner])
         middle = shapely.line_interpolate_point(list(borders), 0.5, normalized=True)
-        cut, diagonal = np.asarray(shapely.distance(own, middle) > NEAR), np.full(len(borders), -1)
+        cut, diagonal = np.asarray(shapely.distance(plan_borders, middle) > NEAR), np.full(len(borders), -1)
         for number, normal in enumerate(self.mirrors):
             if np.all(normal):
                 diagonal[cut & (np.abs(shapely.get_coordinates(middle) @ normal) < NEAR)] = number
@@ -106,8 +106,9 @@ class CentredPlan(NamedTuple):
     def unfolded(
         self, part: PlanCells, ends: np.ndarray, places: np.ndarray
     ) -> tuple[PlanCells, np.ndarray, np.ndarray]:
-        """The cells of the part with their images; ends (k, 2), places (k, 3, 2): of sides on borders, and of
-        their quarters. A triangle that lies on a diagonal is one quadrilateral with its image."""
+        """Return the cells of the part with their images, ends and places; a triangle on a diagonal becomes a
+        quadrilateral. ends (k, 2): vertices of sides on borders; places (k, 3, 2): of the sides' quarter
+        points."""
         at, quads, triangles, across = part
         for number, normal in enumerate(self.mirrors):
             away = at @ normal
@@ -126,20 +127,21 @@ class CentredPlan(NamedTuple):
         return PlanCells(at, quads, triangles, across), ends, places
 
     def back(self, mesh: MeshQuad, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
-        """A mesh, and places (k, 2), where the plan was; what lies on its bounds to rounding, on them."""
+        """Return a mesh and places (k, 2) in the plan's original position. Points on its bounds up to
+        rounding are moved onto the bounds."""
         half = np.ptp(np.reshape(self.region.bounds, (2, 2)), axis=0) @ np.abs(self.turn) / 2.0
 
         def moved(points: np.ndarray) -> np.ndarray:
-            found = points @ self.turn
-            on = np.abs(np.abs(found) - half) < NEAR
-            return self.centre + np.where(on, np.sign(found) * half, found)
+            turned = points @ self.turn
+            on = np.abs(np.abs(turned) - half) < NEAR
+            return self.centre + np.where(on, np.sign(turned) * half, turned)
 
         upright = np.linalg.det(self.turn) > 0.0
         return mesh_of_cells(moved(mesh.p.T), mesh.t.T if upright else mesh.t.T[:, ::-1]), moved(places)
 
 
 def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
-    """Return a plan in the last of its eight places."""
+    """Return a plan in the last of its eight placements."""
     import shapely
 
     centre = np.mean(np.reshape(region.bounds, (2, 2)), axis=0)
@@ -149,30 +151,30 @@ def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
     )
     keys = [[_ordered(part, turn).ravel().tolist() for part in (rims, lines)] for turn in TURNS]
     turn = TURNS[keys.index(max(keys))]
-    own = [other @ turn.T for other, key in zip(TURNS, keys, strict=True) if key == max(keys)]
+    images = [other @ turn.T for other, key in zip(TURNS, keys, strict=True) if key == max(keys)]
     axes, diagonals = (
-        [normal for normal in normals if any(np.array_equal(reflection(normal), each) for each in own)]
+        [normal for normal in normals if any(np.array_equal(reflection(normal), image) for image in images)]
         for normals in (np.eye(2), DIAGONALS)
     )
-    cuts = (*diagonals[: 1 if axes else 2], *axes)  # of both axes and diagonals one half of a quarter is left
+    cuts = (*diagonals[: 1 if axes else 2], *axes)  # with both axes and diagonals an eighth remains
 
-    def there(at: np.ndarray) -> np.ndarray:
+    def to_place(at: np.ndarray) -> np.ndarray:
         return np.round(at - centre, DIGITS) @ turn.T + 0.0
 
     borders = shapely.multilinestrings(_ordered(lines, turn))
-    region = shapely.normalize(shapely.transform(region, there))
-    return CentredPlan(region, borders, centre, turn, cuts, np.array(own[:1] if cuts else own))
+    region = shapely.normalize(shapely.transform(region, to_place))
+    return CentredPlan(region, borders, centre, turn, cuts, np.array(images[:1] if cuts else images))
 
 
 def reflection(normal: np.ndarray) -> np.ndarray:
-    """Return the map to the mirror image across x, y or a diagonal, to the last digit."""
+    """Return the map to the mirror image across x, y or a diagonal, exact to the last digit."""
     return np.asarray(np.round(np.eye(2) - 2.0 * np.outer(normal, normal)) + 0.0)
 
 
 def _ordered(sides: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """Sides (k, 2, 2) turned, each from its lesser end, in rising order, none twice."""
-    there = np.sort((sides @ turn.T + 0.0).view(complex), axis=1).view(float)
-    return np.asarray(np.unique(there.reshape(-1, 4), axis=0).reshape(-1, 2, 2))
+    """Return sides (k, 2, 2) turned, each from its lesser end, in rising order, without duplicates."""
+    turned = np.sort((sides @ turn.T + 0.0).view(complex), axis=1).view(float)
+    return np.asarray(np.unique(turned.reshape(-1, 4), axis=0).reshape(-1, 2, 2))
 
 
 def _rounded(part: BaseGeometry) -> BaseGeometry:

@@ -1,6 +1,6 @@
-"""What a surface has to carry, from the scene's words and the shape alone, to check what a model has solved.
+"""Total load on a surface, from the scene and the shape alone, to check a model's solution.
 
-    force     dead loads  as the scene has them (`dead_force`)
+    force     dead loads  given by the scene (`dead_force`)
               pressure    ½ p ∮ φ × dφ
     moment    weight      ∫ ρ (φ + z d) dV × g        chain      ρ_l ∫ (φ + c d) dL × g
               payload     m φ(x) × g, or m ⟨φ⟩ × g
@@ -8,10 +8,10 @@
               pressure    −½ p ∮ |φ|² dφ
 
 about the origin of the flat sheet's frame, with the position φ, the director d and the unit tangent t̂ of the
-edge on the sheet as it lies; A and L are the flat sheet's, ∮ runs counter-clockwise around it: by Stokes'
-theorem a pressure's force and moment depend on the rim alone. Of `loads`, for whose nodal forces the model
-has been solved, only the sides of edges are used. Being of fifth degree at most, everything is integrated
-exactly but t̂, which is taken at the points where `loads` has the moment act.
+edge on the deformed sheet; A and L are the flat sheet's, ∮ runs counter-clockwise around it: by Stokes'
+theorem a pressure's force and moment depend on the rim alone. Only the sides of edges are taken from `loads`,
+with whose nodal forces the model has been solved. All integrands but t̂ are of fifth degree at most and
+integrated exactly; t̂ is taken at the points where `loads` applies the moment.
 """
 
 from __future__ import annotations
@@ -39,10 +39,8 @@ _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 
 @dataclass(frozen=True)
 class Surface:
-    """A sheet as it lies: its plan, φ [m] and d (n, 3) of the nodes.
-
-    own: whether the mesh has an outline of its own, in place of the scene's sheet.
-    """
+    """Deformed sheet: its plan, φ [m] and d (n, 3) of the nodes. own: whether the mesh has an outline of its
+    own, in place of the scene's sheet."""
 
     plan: Plan
     position: np.ndarray
@@ -50,28 +48,28 @@ class Surface:
     own: bool = False
 
     def at(self, point: PlanPoint) -> np.ndarray:
-        """φ (3,) [m] at a plan point [m]."""
+        """Return φ (3,) [m] at a plan point [m]."""
         plan = self.plan
         return interpolate(plan.mesh, plan.elements, self.position, np.array([point]))[0]
 
     def masses(self, scene: Scene) -> np.ndarray:
-        """w |det J| ρh (m, 9) [kg] at the Gauss points, of a scene's sheet."""
+        """Return w |det J| ρh (m, 9) [kg] at the Gauss points of a scene's sheet."""
         return areas(self.plan.corners) * constants_of(scene, self.plan.corners).per_area
 
     def first_moment(self, scene: Scene) -> np.ndarray:
-        """∫ ρ (φ + z d) dV (3,) [kg m] of a scene's sheet."""
+        """Return ∫ ρ (φ + z d) dV (3,) [kg m] of a scene's sheet."""
         of, weights = constants_of(scene, self.plan.corners), areas(self.plan.corners)
         masses = np.array([weights * per_area for per_area in (of.per_area, of.moment_per_area)])
         vectors = np.array([self.position, self.director])[:, self.plan.elements]
         return np.asarray(np.einsum("peg,pegc->c", masses, AT_GAUSS[0] @ vectors))
 
     def lengths(self, sides: np.ndarray) -> np.ndarray:
-        """w |X,ξ| (k, 3) [m] at the points of sides (k, 3)."""
+        """Return w |X,ξ| (k, 3) [m] at the points of sides (k, 3)."""
         return THREE_WEIGHTS * np.linalg.norm(_SLOPE @ self.plan.nodes[sides], axis=-1)
 
 
 def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np.ndarray, np.ndarray]:
-    """Force [N] and moment [N·m] (3,) of the whole load, and of the chains on edges."""
+    """Return force [N] and moment [N·m] (3,) of the whole load, the weight of chains on edges included."""
     force, moment = _dead_force(scene, surface), np.zeros(3)
     if scene.gravity is not None:
         parts = [surface.first_moment(scene)]
@@ -105,8 +103,8 @@ def left_over(
     allowed: float,
     share: float,
 ) -> Balance:
-    """The balance of a model under a share of the load: what its supports exert, by name, and where and with
-    which forces it is held, pairs (…, 3); size and allowed: as `Balance` has them."""
+    """Return the balance of a model under a share of the load. reactions: of its supports, by name; held:
+    places and forces with which it is held, pairs (…, 3); size and allowed: fields of `Balance`."""
     force, moment = applied(scene, surface, edges)
     longest = float(np.ptp(surface.plan.nodes, axis=0).max())
     turning = [np.cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
@@ -120,7 +118,7 @@ def left_over(
 
 
 def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
-    """Of all loads but those on areas, which are the mesh's own."""
+    """Return the total dead force; area loads are left out, as their area is the mesh's own."""
     others = tuple(load for load in scene.loads if not isinstance(load, AreaLoad))
     scene = scene.model_copy(update={"loads": others})
     if not surface.own and scene.uniform and not scene.pierced:
@@ -134,7 +132,7 @@ def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
 
 
 def _of_chains(edge: OnEdge, surface: Surface, thickness: float) -> np.ndarray:
-    """∫ ρ_l (φ + c d) dL [kg m] of the chains of a rod, which has positions and directors of its own."""
+    """Return ∫ ρ_l (φ + c d) dL [kg m] of the chains of a rod, by the rod's own positions and directors."""
     values = np.concatenate([edge.position, edge.director], axis=1)[edge.rod.places]
     line = np.einsum("kg,gi,kic->c", surface.lengths(edge.rod.nodes), _VALUE, values)
     chains = edge.rod.chains.values()
@@ -154,7 +152,7 @@ def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
 
 
 def _first_moment(payload: Mass, surface: Surface) -> np.ndarray:
-    """m φ [kg m] of a payload at a point, or of the mean φ over its part of the sheet."""
+    """Return m φ [kg m] of a payload at a point, or with the mean φ over its part of the sheet."""
     if payload.at is not None:
         return payload.mass * surface.at(payload.at)
     weights, at = _area(payload.where, surface)
@@ -162,15 +160,15 @@ def _first_moment(payload: Mass, surface: Surface) -> np.ndarray:
 
 
 def _area(where: Shape | None, surface: Surface) -> tuple[np.ndarray, np.ndarray]:
-    """w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of the elements in a shape, or of all."""
+    """Return w |det J| (k, 9) [m²] and φ (k, 9, 3) [m] at the Gauss points of elements in a shape, or all."""
     plan = surface.plan
     on = plan.elements[plan.within(where)]
     return areas(plan.nodes[on]), AT_GAUSS[0] @ surface.position[on]
 
 
 def _pressure(surface: Surface, where: Shape | None) -> tuple[np.ndarray, np.ndarray]:
-    """Force [m²] and moment [m³] of a unit pressure; with the sheet to its right, the rim of what is pressed
-    runs clockwise."""
+    """Return force [m²] and moment [m³] of a unit pressure; its rim runs clockwise, the sheet to the
+    right."""
     plan, mesh = surface.plan, surface.plan.mesh
     inside = np.isin(mesh.f2t, plan.within(where))
     facets = np.flatnonzero(inside.sum(axis=0) == 1)

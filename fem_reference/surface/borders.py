@@ -1,4 +1,4 @@
-"""The lines in a sheet's plan that sides of elements lie on: its rim and the borders of shapes within it."""
+"""Lines in a sheet's plan that element sides follow: its rim and the borders of shapes within it."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 
-SLIVER = 5e-4  # of the shorter side: width of parts between borders that are not meshed
+SLIVER = 5e-4  # width of parts between borders that are not meshed, over the shorter side
 
 
 class Borders(NamedTuple):
-    """region: where there is a sheet; inner: borders of shapes, within it or beyond [m]."""
+    """Borders of a plan [m]. region: area of the sheet; inner: borders of shapes, within it or beyond."""
 
     region: BaseGeometry
     inner: BaseGeometry
@@ -34,18 +34,18 @@ class Borders(NamedTuple):
 
     @property
     def along_axes(self) -> bool:
-        """Whether all of them lie along x or y."""
+        """Whether all borders lie along x or y."""
         begin, end = self._sides
         return bool(np.all((begin == end).any(axis=1)))
 
     def lines(self, lengths: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-        """x and y [m], rising, of those along y and along x, within the edges of a sheet with these sides."""
-        found, (begin, end) = [], self._sides
+        """Return x of borders along y and y of borders along x [m], rising, within the sheet's edges."""
+        positions, (begin, end) = [], self._sides
         for axis, length in enumerate(lengths):
             at = np.unique(begin[begin[:, axis] == end[:, axis], axis])
             at = at[(at > COINCIDENT * length) & (at < (1.0 - COINCIDENT) * length)]
-            found.append(at[np.diff(at, prepend=-length) > COINCIDENT * length])
-        return found[0], found[1]
+            positions.append(at[np.diff(at, prepend=-length) > COINCIDENT * length])
+        return positions[0], positions[1]
 
 
 def straight_parts(lines: BaseGeometry) -> np.ndarray:
@@ -57,8 +57,8 @@ def straight_parts(lines: BaseGeometry) -> np.ndarray:
 
 
 def borders_of(scene: Scene) -> Borders | None:
-    """Return the borders in a scene's plan, None of a whole rectangle without any: patches that are made of
-    what the sheet is made of have none."""
+    """Return the borders in a scene's plan, None for a whole rectangle without any. Patches of the sheet's
+    own constants have none."""
     shapes, points = shapes_of(scene), [s.at for s in scene.supports if isinstance(s, Point)]
     if not (shapes or points or scene.pierced):
         return None
@@ -73,27 +73,27 @@ def borders_of(scene: Scene) -> Borders | None:
 
 
 def without_slivers(parts: Sequence[BaseGeometry], width: float) -> list[BaseGeometry]:
-    """Return a region and lines with the same points wherever borders are within a width [m] of each other,
-    as a circle and a polygon with its corners on it: no element between them is upright."""
+    """Return a region and lines with common points wherever borders are within a width [m] of each other.
+    Between a circle and a polygon with its corners on the circle, for example, no element is upright."""
     import shapely
 
     def points(of: Sequence[BaseGeometry]) -> BaseGeometry:
         return shapely.multipoints(shapely.get_coordinates(of))
 
-    found = list(parts)
-    for number in range(1, len(found)):
-        found[number] = shapely.snap(found[number], points(found[:number]), width)
-    return [shapely.snap(part, points(found), width) for part in found]
+    snapped = list(parts)
+    for number in range(1, len(snapped)):
+        snapped[number] = shapely.snap(snapped[number], points(snapped[:number]), width)
+    return [shapely.snap(part, points(snapped), width) for part in snapped]
 
 
 def has_lines(scene: Scene) -> bool:
-    """Return whether meshes of a scene are of lines along x and y."""
+    """Return whether a scene's meshes consist of lines along x and y."""
     borders = borders_of(scene)
     return borders is None or borders.along_axes
 
 
 def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:
-    """Return the shapes whose borders count; lines: those too that say which part of an edge is loaded."""
+    """Return the shapes whose borders count; lines: also the shapes that bound the loaded part of an edge."""
     places = [place(support) for support in scene.supports if not isinstance(support, Point)]
     loads = [load for load in scene.loads if lines or not isinstance(load, EdgeLoad)]
     places += [getattr(load, "where", None) for load in loads]

@@ -1,10 +1,10 @@
-"""The scene's payloads in a reference (`scenes.objects.masses`): what they add to the mass of elements.
+"""Payloads of a scene in a reference (`scenes.objects.masses`): their part of the elements' mass.
 
     at a point      m N Nᵀ on the mid-surface
     over a part     m/A ∫ N Nᵀ dA on the mid-surface,   J/A ∫ N Nᵀ dA on the director
 
-with the shape functions N of the element that holds the point, and what resists the components of the
-director's rate, J. What a row adds up to is the mass that weighs at a node. Units: kg, kg m², m.
+with the shape functions N of the element that holds the point, and the inertia J against the components of
+the director's rate. The sum of a row is the mass that weighs at a node. Units: kg, kg m², m.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from sheetbench.scenes import Scene
 
 
 def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield the elements (k,) that each payload of a scene is on, and what it adds there: to vectors of the
-    mid-surface (k, 9, 9) [kg], and to the directors' x, y and z (3, k, 9, 9) [kg m²]."""
+    """Yield for each payload its elements (k,) and masses of vectors: of the mid-surface (k, 9, 9) [kg], of
+    the directors. The directors' are by component x, y and z, (3, k, 9, 9) [kg m²]."""
     for payload in scene.masses:
         if payload.at is None:
             on = plan.within(payload.where)
@@ -34,7 +34,7 @@ def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, 
 
 
 def add_carried(scene: Scene, plan: Plan, masses: np.ndarray) -> None:
-    """Add them to masses of the positions, then the directors of all elements (m, 18, 3, 18, 3)."""
+    """Add the payloads to masses (m, 18, 3, 18, 3) of the positions, then the directors of all elements."""
     for on, by_place, by_turn in carried(scene, plan):
         for axis in range(3):
             masses[on, :9, axis, :9, axis] += by_place

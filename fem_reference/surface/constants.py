@@ -1,7 +1,7 @@
-"""A sheet's constants at the Gauss points as values by name, what is made of them, and derivatives by them.
+"""Constants of a sheet at the Gauss points as values by name; sections and laws of them, derivatives by them.
 
 Derivatives are complex steps, ∂f/∂c = Im f(c + iε)/ε, which have no difference to cancel and are exact to
-rounding: section and laws take complex constants as they take real ones, so that a law brings its derivatives
+rounding: section and laws take complex constants like real ones, so that a law brings its derivatives
 with its stress. Source: Squire and Trapp, SIAM Review 40 (1998) 110.
 """
 
@@ -27,9 +27,9 @@ TINY = 1e-30
 
 
 def values_of(scene: Scene, corners: np.ndarray, natural: bool) -> Values:
-    """Return the constants of a scene's sheet at the Gauss points of elements with nodes (m, 9, 2) [m]: those
-    of plies by their number, of a rubber its law's keys; natural: with the strain that the sheet has at rest.
-    """
+    """Return the constants of a scene's sheet at the Gauss points of elements with nodes (m, 9, 2) [m].
+    Constants of plies have the ply's number in front, a rubber's the keys of its law; natural: with the
+    natural strain."""
     constants = constants_of(scene, corners)
     values: Values = {"thickness": constants.thickness}
     if not constants.plies:
@@ -45,14 +45,14 @@ def values_of(scene: Scene, corners: np.ndarray, natural: bool) -> Values:
 
 
 def constants_with(values: Values) -> Constants:
-    """Return the constants of these values."""
+    """Return `Constants` with the given values."""
     count = sum(name.endswith(".low") for name in values)
     plies = tuple(Ply(*(values[f"{number}.{name}"] for name in Ply._fields)) for number in range(count))
     return Constants(plies=plies, **{name: values.get(name) for name in NUMBERS})
 
 
 def section_with(values: Values) -> Section:
-    """Return the section of a sheet of these constants, per area and strain of the sheet as drawn."""
+    """Return the section of a sheet with the given values, per area and strain of the drawn sheet."""
     constants = constants_with(values)
     section = section_of(constants, constants.thickness)
     if STRAIN[0] not in values:
@@ -62,20 +62,20 @@ def section_with(values: Values) -> Section:
 
 
 def material_with(values: Values) -> Any:
-    """Return young, poisson and energy of these values, as laws take them."""
-    found = SimpleNamespace(young=values["young"], poisson=values["poisson"])
+    """Return an object with the young, poisson and energy of the given values, as argument of a law."""
+    material = SimpleNamespace(young=values["young"], poisson=values["poisson"])
     if LAW in values:
         keys, energy = WORDS[values[LAW]]
-        found.energy = energy(*(values[key] for key in keys))
-    return found
+        material.energy = energy(*(values[key] for key in keys))
+    return material
 
 
 def by_values(
     function: Callable[[Values], np.ndarray], values: Values, names: Iterable[str] = ()
 ) -> dict[str, np.ndarray]:
-    """Return the derivatives of a function of constants by these, by all unless given."""
+    """Return the derivatives of a function of constants by the constants, by all or by the given names."""
 
-    def by(name: str) -> np.ndarray:
+    def derivative(name: str) -> np.ndarray:
         return np.asarray(function({**values, name: values[name] + 1j * TINY}).imag / TINY)
 
-    return {name: by(name) for name in names or values if name != LAW}
+    return {name: derivative(name) for name in names or values if name != LAW}

@@ -1,14 +1,14 @@
 """Loads of the sheet: dead nodal forces, a follower pressure and a follower edge moment.
 
-gravity    f = ∫ ρ h g N dA                       dead, and that of payloads (`surface.carried`)
-           f_d = ∫ (∫ρz dz) g N dA                dead, on the directors, of unlike layers
+gravity    f = ∫ ρ h g N dA                       dead; weight of payloads: `surface.carried`
+           f_d = ∫ (∫ρz dz) g N dA                dead, on the directors, of layers of different density
 point      f = F N(x)                             dead
 edge       f = ∫ q N dL                           dead, per undeformed length
 area       f = ∫ q N dA                           dead, per undeformed area
 pressure   f = ∫ p N φ,r × φ,s dr ds              follows the normal, per current area
 moment     f_d = ∫ m N t̂ × d dL,  t̂ = φ,L/|φ,L|   on the directors, about the current edge tangent
 
-With ν the outward normal, L runs along ν × e_z, so that m > 0 turns the edge towards +z outside it:
+L runs along ν × e_z, ν the outward normal, so that m > 0 turns the edge towards +z outside it:
 the virtual work of a moment m t̂ on δd = δθ × d is δd · (m t̂ × d). Units: N, N/m, N·m/m, Pa, m.
 """
 
@@ -35,8 +35,8 @@ _CROSS = np.cross(np.eye(3)[:, None], np.eye(3)).swapaxes(1, 2)  # (a × b)_c = 
 
 @dataclass(frozen=True)
 class FollowerPressure:
-    """Pressure [Pa] on elements (k,); orientation: (k,) +1 where r, s run counter-clockwise, else −1;
-    conservative: where the rim of what is pressed sweeps no area (`scenes.encloses_volume`)."""
+    """Pressure [Pa] on elements (k,). orientation: (k,) +1 where r, s run counter-clockwise, else −1;
+    conservative: whether the rim of the pressed part sweeps no area (`scenes.encloses_volume`)."""
 
     value: float
     elements: np.ndarray
@@ -60,17 +60,14 @@ class FollowerPressure:
         return out
 
     def work(self, vectors: np.ndarray) -> float:
-        """p times the volume over the plan, ∫ z (φ,r × φ,s)·e_z dr ds = Σ z f_z/p of the nodes."""
+        """Return p times the volume over the plan, ∫ z (φ,r × φ,s)·e_z dr ds = Σ z f_z/p of the nodes."""
         return float(np.sum(vectors[:, :9, 2] * self.force(vectors)[:, :9, 2]))
 
 
 @dataclass(frozen=True)
 class Line:
-    """Element sides along an edge.
-
-    elements: (k,); sides, nodes: (k, 3) along ν × e_z, numbers in the element and in the plan; speed: |X,ξ|
-    (k, 3) [m] at three Gauss points.
-    """
+    """Element sides along an edge. elements: (k,); sides, nodes: (k, 3) along ν × e_z, numbers in the element
+    and in the plan; speed: |X,ξ| (k, 3) [m] at three Gauss points."""
 
     elements: np.ndarray
     sides: np.ndarray
@@ -79,7 +76,7 @@ class Line:
 
     @classmethod
     def along(cls, plan: Plan, facets: np.ndarray, elements: np.ndarray | None = None) -> Line:
-        """The sides that are `facets` (k,) of a plan's mesh, of these elements or of any."""
+        """Return the sides at `facets` (k,) of a plan's mesh, of given elements (k,) or of any."""
         mesh = plan.mesh
         elements = mesh.f2t[0, facets] if elements is None else elements
         sides = _SIDES[np.argmax(mesh.t2f[:, elements] == facets, axis=0)]
@@ -92,13 +89,13 @@ class Line:
         return cls(elements, sides, nodes, np.linalg.norm(_LINE_SLOPE @ plan.nodes[nodes], axis=-1))
 
     def shares(self) -> np.ndarray:
-        """∫ N dL (k, 3) [m] of the three nodes."""
+        """Return ∫ N dL (k, 3) [m] of the three nodes."""
         return np.einsum("g,eg,gi->ei", THREE_WEIGHTS, self.speed, _LINE)
 
 
 @dataclass(frozen=True)
 class FollowerMoment:
-    """A moment per undeformed length [N·m/m] on a line of elements (k,), about its current tangent."""
+    """Moment per undeformed length [N·m/m] on a line of elements (k,), about its current tangent."""
 
     value: float
     elements: np.ndarray
@@ -127,7 +124,7 @@ class FollowerMoment:
         return out
 
     def work(self, vectors: np.ndarray) -> float:
-        """Zero: it has no potential."""
+        """Return zero: the moment has no potential."""
         return 0.0
 
     @property
@@ -135,7 +132,7 @@ class FollowerMoment:
         return self.value * THREE_WEIGHTS * self.line.speed
 
     def _frame(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Unit tangent (k, 3, 3), |φ,ξ| (k, 3, 1) and director (k, 3, 3) at the points of the sides."""
+        """Return unit tangent, |φ,ξ| and director (k, 3, 3), (k, 3, 1), (k, 3, 3) at the sides' points."""
         rows = np.arange(len(vectors))[:, None]
         slope = np.einsum("gi,eic->egc", _LINE_SLOPE, vectors[rows, self.line.sides])
         stretch = np.linalg.norm(slope, axis=-1, keepdims=True)
@@ -146,13 +143,13 @@ Follower = FollowerPressure | FollowerMoment
 
 
 def spread(plan: Plan, nodes: np.ndarray, shares: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """Dead nodal forces (n, 3) of one (3,) of which nodes (k, a) have shares (k, a)."""
+    """Return dead nodal forces (n, 3) of a force (3,) of which nodes (k, a) have shares (k, a)."""
     return np.outer(np.bincount(nodes.ravel(), shares.ravel(), len(plan.nodes)), force)
 
 
 def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
-    """Dead forces (2 n, 3) [N], [N m] on positions, then directors of nodes, and follower loads of a scene on
-    a mesh that carries the edges' names; every load with the last factor of its history."""
+    """Return dead forces (2 n, 3) [N, N m] on positions, then directors of nodes, and the loads that follow
+    the sheet. The mesh carries the edges' names; every load has the last factor of its history."""
     corners, followers = plan.corners, list[Follower]()
     dead, on_directors = [np.zeros((len(plan.nodes), 3))], np.zeros((len(plan.nodes), 3))
     if scene.gravity is not None:
@@ -188,6 +185,6 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
 
 
 def orientation(nodes: np.ndarray) -> np.ndarray:
-    """+1 or −1 (m,): whether r, s turn counter-clockwise in elements with node positions (m, 9, 2)."""
+    """Return +1 or −1 (m,): whether r, s turn counter-clockwise in elements with node positions (m, 9, 2)."""
     r, s = nodes[:, 5] - nodes[:, 7], nodes[:, 6] - nodes[:, 4]
     return np.sign(r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0])

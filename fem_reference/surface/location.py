@@ -1,8 +1,8 @@
-"""Where a plan point lies: the element that holds it and its local coordinates, edges and corners included.
+"""Location of plan points: the element that holds a point, edges included, and its local coordinates.
 
 Solves x(ξ) = Σ N_i(ξ) x_i, scikit-fem's map of a straight-sided or biquadratic quadrilateral, by Newton's
-method in every element whose bounding box holds the point, and keeps the first of those whose own points
-come nearest to it: in a distorted one that is foreign to the point the method may end anywhere.
+method in every element whose bounding box holds the point, and keeps the first element whose own points
+come nearest to it: in a distorted element without the point the method may end anywhere.
 """
 
 from __future__ import annotations
@@ -14,17 +14,15 @@ from fem_reference.surface.biquadratic import shape
 from sheetbench.errors import BadInput
 from sheetbench.numerics.cache import cached
 
-SLACK = 1e-9  # how far outside, in element sizes, still counts as on the edge: rounding only
-BULGE = 0.05  # likewise, of elements with curved sides, which are not the shape's to the last digit
+SLACK = 1e-9  # distance outside, in element sizes, that still counts as on the edge: rounding only
+BULGE = 0.05  # that distance for elements with curved sides, which follow a shape approximately
 _PAIRS_AT_ONCE = 4_000_000
 _NEWTON = 8
 
 
 def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Elements (n,) and their coordinates r, s (2, n) in [−1, 1] of plan points (n, 2) [m].
-
-    Raises BadInput, naming the first one, if a point is off the mesh.
-    """
+    """Return elements (n,) and their coordinates r, s (2, n) in [−1, 1] of plan points (n, 2) [m]. Raises
+    BadInput, naming the first one, if a point is off the mesh."""
     nodes = mesh.doflocs[:, mesh.dofs.element_dofs]  # (2, 4 or 9, m)
     low, high = nodes.min(axis=1), nodes.max(axis=1)
     bulge = SLACK if nodes.shape[1] == 4 else 0.25  # a curved side leaves the box of its nodes
@@ -52,19 +50,15 @@ def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def interpolate(
     mesh: MeshQuad, element_nodes: np.ndarray, nodal: np.ndarray, points: np.ndarray
 ) -> np.ndarray:
-    """A biquadratic nodal field (n, k) at plan points (p, 2) [m]: (p, k); element_nodes: (m, 9).
-
-    Raises BadInput off the mesh.
-    """
+    """Return a biquadratic nodal field (n, k) at plan points (p, 2) [m]: (p, k); element_nodes: (m, 9).
+    Raises BadInput off the mesh."""
     element, value = shares(mesh, points)
     return np.einsum("pi,pik->pk", value, nodal[element_nodes[element]])
 
 
 def shares(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The elements (p,) of plan points (p, 2) [m], and the shape functions of their nodes there (p, 9).
-
-    Raises BadInput off the mesh.
-    """
+    """Return the elements (p,) of plan points (p, 2) [m], and the shape functions of their nodes there (p,
+    9). Raises BadInput off the mesh."""
     return _shares(type(mesh), mesh.doflocs, mesh.t, points)
 
 
@@ -77,8 +71,8 @@ def _shares(
 
 
 def _invert(mesh: MeshQuad, elements: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Scikit-fem's local coordinates 0 ≤ ξ ≤ 1, (2, n), of x (2, n) in the elements (n,), and how far from x
-    they are, (n,) [m]."""
+    """Return local coordinates 0 ≤ ξ ≤ 1 (2, n) of x (2, n) in elements (n,), and distances (n,) [m] from
+    x."""
     mapping = mesh.mapping()
     xi = np.full_like(x, 0.5)
     for _ in range(_NEWTON):

@@ -6,8 +6,8 @@ Voigt order [xx, yy, 2xy]; per unit of mid-surface area, with thickness h:
     bending   M = h³/12 C κ
     shear     Q = k h G γ,         G = E/2(1 + ν),   k = 5/6 (Reissner)
 
-A sheet with fibres has the section of its plies (`fem_reference.surface.plies`). A `Section` given in their
-place makes the sheet any other plate, a lattice's homogenised one for instance.
+A sheet with fibres has the section of its plies (`fem_reference.surface.plies`). A `Section` given instead
+makes the sheet any other plate, a lattice's homogenised one for instance.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ SHEAR_CORRECTION = 5.0 / 6.0
 
 
 class Section(NamedTuple):
-    """Stiffness of the sheet per unit of its width: membrane A (3, 3) [N/m] and bending D (3, 3) [N·m] in
-    Voigt order, shear (2, 2) [N/m], and B (3, 3) [N], mixed, of N = A E + B κ and M = B E + D κ; of a sheet
-    that is not the same all over at the Gauss points, (m, 9, …)."""
+    """Stiffness of the sheet per unit of its width, in Voigt order. Membrane A (3, 3) [N/m], bending D (3, 3)
+    [N·m], shear (2, 2) [N/m] and mixed B (3, 3) [N], with N = A E + B κ and M = B E + D κ; of a nonuniform
+    sheet at the Gauss points, (m, 9, …)."""
 
     membrane: np.ndarray
     bending: np.ndarray
@@ -37,33 +37,33 @@ class Section(NamedTuple):
 
 
 def constants_of(scene: Scene, corners: np.ndarray) -> Constants:
-    """A scene's constants at the Gauss points of elements with nodes (m, 9, 2) [m]: numbers of a sheet that
-    is the same all over, else (m, 9)."""
+    """Return a scene's constants at the Gauss points of elements with nodes (m, 9, 2) [m]. They are numbers
+    for a uniform sheet, else (m, 9)."""
     return constants_at(scene, AT_GAUSS[0] @ corners)
 
 
 def section_at(scene: Scene, corners: np.ndarray) -> Section:
-    """The section of a scene's sheet at those points."""
+    """Return the section of a scene's sheet at the Gauss points of elements with nodes (m, 9, 2) [m]."""
     constants = constants_of(scene, corners)
     return section_of(constants, constants.thickness)
 
 
 def green(stretch: np.ndarray) -> np.ndarray:
-    """E0 = ½ (U² − 1) of U − 1 (…, 2, 2), for sheets that are not flat at rest: with the natural stretch
-    U(z) = 1 + e0 − z k0 at the height z (`scenes.objects.natural`) a law of strain takes E − E0(z), of a
-    shell to first order in z
+    """Return E0 = ½ (U² − 1) of U − 1 (…, 2, 2), for sheets that are not flat at rest.
+
+    A law of strain takes E − E0(z) with the natural stretch U(z) = 1 + e0 − z k0 at the height z
+    (`scenes.objects.natural`), of a shell to first order in z
 
         E0 = e0 + ½ e0²,    κ0 = −k0 − ½ (e0 k0 + k0 e0) = ½ (E0(1) − E0(−1)),
 
-    and its energy is that per natural area: strains of the natural sides are U⁻¹ (E − E0) U⁻¹, areas det U
-    times as large, U = 1 + e0 that of the mid-surface at the full share. Elements sample E0 where they do E.
-    """
+    and its energy is per natural area: strains of the natural sides are U⁻¹ (E − E0) U⁻¹, areas det U times
+    as large, with the mid-surface's U = 1 + e0 at the full load factor. Elements sample E0 where they sample
+    E."""
     return np.asarray(stretch + 0.5 * stretch @ stretch)
 
 
 def grown(section: Section, strain: np.ndarray) -> Section:
-    """Return the section per area and strain of the sheet as drawn, of one per natural area and strain, where
-    e0 is a strain (…, 2, 2)."""
+    """Return the section per area and strain of the drawn sheet from a natural one; strain: e0 (…, 2, 2)."""
     stretch = np.eye(2) + strain
     inverse, area = np.linalg.inv(stretch), np.linalg.det(stretch)[..., None, None]
     turn = pulled_back(inverse, IN_PLANE)
@@ -74,8 +74,8 @@ def grown(section: Section, strain: np.ndarray) -> Section:
 
 
 def stretched(scene: Scene) -> Scene:
-    """Return the scene with the natural strain that gives its pretension by these strains of the natural
-    sides, whose stress in a sheet held where it is drawn is its tension: there the stretch is 1."""
+    """Return the scene with the natural strain that gives its pretension. The stress of that strain, referred
+    to the natural sides, is the tension of a sheet held at its drawn size, where the stretch is 1."""
 
     def tension(strain: np.ndarray) -> np.ndarray:
         inside = strain[[[0, 2], [2, 1]]]
@@ -89,7 +89,7 @@ def stretched(scene: Scene) -> Scene:
 
 
 def section_of(material: Material | Constants, thickness: float) -> Section:
-    """The section of a sheet of this material, homogeneous through its thickness, or of its plies."""
+    """Return the section of a sheet of a material, homogeneous through its thickness, or of its plies."""
     if isinstance(material, Constants) and material.plies:
         return Section(*plies.section(material.plies, thickness))
     stretch = plane_stress(material)
@@ -98,7 +98,7 @@ def section_of(material: Material | Constants, thickness: float) -> Section:
 
 
 def plane_stress(material: Material | Constants) -> np.ndarray:
-    """C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
+    """Return C (…, 3, 3) [Pa]: stress [xx, yy, xy] of strain [xx, yy, 2xy]."""
     nu = np.asarray(material.poisson)
     form = np.zeros((*nu.shape, 3, 3), np.result_type(float, nu))
     form[..., 0, 0] = form[..., 1, 1] = 1.0
@@ -108,10 +108,10 @@ def plane_stress(material: Material | Constants) -> np.ndarray:
 
 
 def shear_modulus(material: Material | Constants) -> float:
-    """G = E/2(1 + ν) [Pa]."""
+    """Return G = E/2(1 + ν) [Pa]."""
     return material.young / (2.0 * (1.0 + material.poisson))
 
 
 def times(factor: float | np.ndarray, form: np.ndarray) -> np.ndarray:
-    """A form (…, k, k) times numbers (…)."""
+    """Return forms (…, k, k) times numbers (…)."""
     return np.asarray(factor)[..., None, None] * form

@@ -28,16 +28,14 @@ from sheetbench.scenes.objects.shapes import COINCIDENT, Shape
 Elements = int | tuple[int, int]
 
 # A nine-node element drawn as four bilinear quadrilaterals; local nodes: 4 corners, 4 mid-sides, centre.
-TOUCHING = 0.05  # of a side's length, that a shape may be off it and touch it still
-BESIDE = 0.03  # of a shape's area, that a round one lacks between straight sides, 16 or more around
+TOUCHING = 0.05  # largest distance of a shape that touches a side, over the side's length
+BESIDE = 0.03  # share of a round shape's area that straight sides, 16 or more around, miss
 _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 
 
 def divisions(sheet: Sheet, elements: Elements) -> tuple[int, int]:
-    """Elements along x and y: a pair as given, or as `scenes.objects.grid.elements_of` counts them.
-
-    Raises BadInput for fewer than one element.
-    """
+    """Return the elements along x and y: a given pair, or the counts of `scenes.objects.grid.elements_of`.
+    Raises BadInput for fewer than one element."""
     counts = elements if isinstance(elements, tuple) else elements_of(sheet, elements)
     if min(counts) < 1:
         raise BadInput(f"elements = {elements}: at least one element along each side")
@@ -45,33 +43,29 @@ def divisions(sheet: Sheet, elements: Elements) -> tuple[int, int]:
 
 
 def spacing(count: int, layer: int) -> np.ndarray:
-    """Fractions (count + 1,) of a side, finer towards both ends over `layer` elements in all.
-
-    Sizes go like sin π(i + ½)/layer at the ends and are equal between: with layer = count the
-    Chebyshev points ½ (1 − cos π i/count), with layer = 1 equal spacing.
-    """
+    """Return fractions (count + 1,) of a side, finer towards both ends over `layer` elements in all. Sizes go
+    like sin π(i + ½)/layer at the ends and are equal between: with layer = count the Chebyshev points ½ (1 −
+    cos π i/count), with layer = 1 equal spacing."""
     from_end = np.minimum(np.arange(count), np.arange(count)[::-1]) + 0.5
     size = np.sin(np.pi * np.minimum(from_end / layer, 0.5))
     return np.concatenate([[0.0], np.cumsum(size)]) / size.sum()
 
 
 def rectangle(sheet: Sheet, elements: Elements, graded: bool = False) -> MeshQuad:
-    """A mesh of the sheet whose boundaries carry the edges' names.
-
-    Uniform; or graded towards all edges, where a clamp that ends at a free edge has a singularity and
-    a thick sheet has boundary layers: the same number of elements, a far smaller error.
-    """
+    """Return a mesh of the sheet whose boundaries carry the edges' names, uniform or graded towards all
+    edges. At edges a clamp that ends at a free edge has a singularity and a thick sheet has boundary layers:
+    with as many elements, the error is far smaller."""
     return _tensor(*_lines(sheet, divisions(sheet, elements), graded, ()), *sheet.lengths)
 
 
 @cached(last=16, most=1 << 14)
 def _tensor(x: np.ndarray, y: np.ndarray, *lengths: float) -> MeshQuad:
-    """The mesh between lines at x and y of a sheet with these sides [m]."""
+    """Return the mesh between lines at x and y of a sheet with given side lengths [m]."""
     return _with_edges(MeshQuad.init_tensor(x, y), lengths)
 
 
 def _with_edges(mesh: MeshQuad, lengths: Sequence[float]) -> MeshQuad:
-    """The mesh with boundaries where it reaches the edges of a sheet with these sides [m]."""
+    """Return the mesh with named boundaries at the edges of a sheet with given side lengths [m]."""
 
     def on(name: str) -> Callable[[np.ndarray], np.ndarray]:
         axis, far = EDGES[name].normal_axis, EDGES[name].far_end
@@ -82,7 +76,7 @@ def _with_edges(mesh: MeshQuad, lengths: Sequence[float]) -> MeshQuad:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A mesh, the biquadratic nodes of its elements (m, 9), and the nodes' plan positions (n, 2) [m]."""
+    """Mesh, the biquadratic nodes of its elements (m, 9), and the nodes' plan positions (n, 2) [m]."""
 
     mesh: MeshQuad
     elements: np.ndarray
@@ -90,17 +84,18 @@ class Plan:
 
     @property
     def corners(self) -> np.ndarray:
-        """Plan positions of the elements' nodes (m, 9, 2) [m]."""
+        """Plan positions (m, 9, 2) [m] of the elements' nodes."""
         return self.nodes[self.elements]
 
     def within(self, shape: Shape | None) -> np.ndarray:
-        """The elements (k,) in a shape, whose borders lie on their sides, or all."""
+        """Return the elements (k,) in a shape, whose borders lie on their sides, or all."""
         middles = self.nodes[self.elements[:, 8]]
         return np.arange(len(middles)) if shape is None else np.flatnonzero(shape.contains(middles))
 
     def touching(self, shape: Shape) -> np.ndarray:
-        """The nodes (k,) of the elements in a shape; where there are none of the rim's sides along which the
-        shape touches the sheet, to a share of their length: it may have more corners than the mesh."""
+        """Return the nodes (k,) of the elements in a shape, or, if there are none, of the rim's sides that it
+        touches. The distance to a touched side is small against its length: the shape may have more corners
+        than the mesh."""
         inside = self.within(shape)
         if len(inside):
             return np.unique(self.elements[inside])
@@ -116,13 +111,13 @@ class Plan:
         return np.unique(np.concatenate([self.mesh.facets[:, facets].ravel(), self.mesh.nvertices + facets]))
 
     def on_boundary(self, name: str) -> np.ndarray:
-        """The nodes (k,) of a boundary, in order."""
+        """Return the nodes (k,) of a boundary, in order."""
         facets = self.mesh.boundaries[name]
         return np.unique(np.concatenate([self.mesh.facets[:, facets].ravel(), self.mesh.nvertices + facets]))
 
 
 def plan_of(mesh: MeshQuad) -> Plan:
-    """A mesh with its biquadratic nodes, corners first, then mid-sides and centres; not to be changed."""
+    """Return a mesh with biquadratic nodes: corners, mid-sides, centres; not to be changed."""
     return Plan(mesh, *_nodes(type(mesh), mesh.doflocs, mesh.t))
 
 
@@ -135,17 +130,15 @@ def _nodes(kind: type[MeshQuad], places: np.ndarray, elements: np.ndarray) -> tu
 
 
 def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float = 1.0) -> MeshQuad:
-    """The mesh of a scene's sheet, its planes of symmetry no edges (see `rectangle`).
-
-    Sides of elements lie on the borders of shapes. Where all of these lie along the axes, lines that lie near
-    them are moved there, and there are more lines where there are fewer than borders; else see `outlined`.
-    A sheet's own mesh is taken where it has as many elements, as it is or with each cut into 4, 16, …; none
-    of its meshes has thinner rows along rims.
-    """
+    """Return the mesh of a scene's sheet; its planes of symmetry are no edges (see `rectangle`). Sides of
+    elements lie on the borders of shapes. If all borders lie along the axes, lines near them are moved there,
+    with more lines where there are fewer than borders; else see `outlined`. A sheet's own mesh is taken where
+    it has as many elements, unchanged or with each cut into 4, 16, …; none of its meshes has thinner rows
+    along rims."""
     counts, lengths = divisions(scene.sheet, elements), scene.sheet.lengths
     graded = graded and scene.sheet.mesh is None
-    if (own := _own(scene.sheet, counts)) is not None:
-        mesh = _with_edges(own, lengths)
+    if (own_mesh := _own_mesh(scene.sheet, counts)) is not None:
+        mesh = _with_edges(own_mesh, lengths)
         _require_borders(scene, mesh)
         return mesh
     borders = borders_of(scene)
@@ -161,8 +154,8 @@ def mesh_of(scene: Scene, elements: Elements, graded: bool = False, reach: float
     return _with_edges(quadrilaterals(*borders, spacing, graded), lengths)
 
 
-def _own(sheet: Sheet, counts: tuple[int, int]) -> MeshQuad | None:
-    """The sheet's own mesh, its elements cut into as many as the counts ask for; None for other numbers."""
+def _own_mesh(sheet: Sheet, counts: tuple[int, int]) -> MeshQuad | None:
+    """Return the sheet's own mesh, cut into the requested number of elements, or None if it cannot be."""
     if sheet.mesh is None:
         return None
     cuts = max(0, round(np.log2(min(counts) / min(elements_of(sheet, MESH)))))
@@ -175,31 +168,31 @@ def _own(sheet: Sheet, counts: tuple[int, int]) -> MeshQuad | None:
 
 
 def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
-    """Raise BadInput for a shape on whose border the sides of elements do not lie, nor nearly so."""
+    """Raise BadInput for a shape whose border is not, or not nearly, made of element sides."""
     import shapely
 
     elements = shapely.polygons(mesh.p[:, mesh.t].transpose(2, 1, 0))
-    found = []
+    parts = []
     for shape in shapes_of(scene, lines=False):
-        taken = shapely.area(elements[shape.contains(mesh.p[:, mesh.t].mean(axis=1).T)]).sum()
-        found.append((shape, taken, area_in(scene, shape)))
+        covered = shapely.area(elements[shape.contains(mesh.p[:, mesh.t].mean(axis=1).T)]).sum()
+        parts.append((shape, covered, area_in(scene, shape)))
     for load in scene.loads:
         if isinstance(load, EdgeLoad) and load.where is not None:
             ends = mesh.p[:, mesh.facets[:, facets_on(mesh, load)]]
             length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=0).sum()
-            found.append((load.where, length, edge_length(scene, load.edge, load.where)))
-    for shape, taken, size in found:
-        if abs(taken - size) > BESIDE * size:
+            parts.append((load.where, length, edge_length(scene, load.edge, load.where)))
+    for shape, covered, size in parts:
+        if abs(covered - size) > BESIDE * size:
             raise BadInput(
                 f"sheet.mesh: its sides do not lie on the border of the {shape.in_words()}: elements with "
-                f"their middles there are {100.0 * taken / size:.3g} % of the part; mesh it by itself"
+                f"their middles there are {100.0 * covered / size:.3g} % of the part; mesh it by itself"
             )
 
 
 def lines_of(
     scene: Scene, counts: tuple[int, int], graded: bool, reach: float = 1.0
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The lines of that mesh: their x and their y [m]; where it has none, equally far apart."""
+    """Return the lines of `mesh_of`, x and y [m]; equally spaced lines for a mesh without lines."""
     borders, graded = borders_of(scene), graded and scene.sheet.mesh is None
     if not has_lines(scene):
         x, y = _lines(scene.sheet, counts, False, _cuts(scene))
@@ -212,7 +205,7 @@ def lines_of(
 
 
 def _with_rows(lines: np.ndarray) -> np.ndarray:
-    """Lines with those of `outlined` along the rim."""
+    """Return lines with the thin rows of `outlined` along the rim."""
     first, last = np.diff(lines)[[0, -1]]
     rows = np.array(LAYERS)
     low, high = lines[0] + first * rows, lines[-1] - last * rows[::-1]
@@ -220,14 +213,14 @@ def _with_rows(lines: np.ndarray) -> np.ndarray:
 
 
 def _through(lines: np.ndarray, sides: np.ndarray) -> np.ndarray:
-    """The lines with some moved to the sides, and those between in proportion; at least one for each. Sides
-    that are the same from either end, one in the middle, have an even number of elements."""
+    """Return the lines with some moved to the sides, at least one each, and the others in proportion. Sides
+    in mirror symmetry with one in the middle have an even number of elements."""
     count, places, length = max(len(lines) - 1, len(sides) + 1), sides.tolist(), float(lines[-1])
     if len(sides) % 2 and is_mirrored(places, length):
         count += count % 2
-    at = np.arange(count + 1)
-    lines = PiecewiseCurve(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(at)
-    in_elements = PiecewiseCurve(lines.tolist(), at.tolist()).at(sides)
+    numbers = np.arange(count + 1)
+    lines = PiecewiseCurve(np.linspace(0.0, count, len(lines)).tolist(), lines.tolist()).at(numbers)
+    in_elements = PiecewiseCurve(lines.tolist(), numbers.tolist()).at(sides)
     fixed = [0, *line_numbers(in_elements.tolist(), count), count]
     return PiecewiseCurve(lines[fixed].tolist(), [lines[0], *places, lines[-1]]).at(lines)
 
@@ -247,7 +240,7 @@ def _lines(
 
 
 def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
-    """Fractions (count + 1,) of a side that is half of a side, where it is cut at one end."""
+    """Return fractions (count + 1,) of a side; of a half side, where it is cut at one end."""
     if not cuts:
         return spacing(count, layer)
     half = 2.0 * spacing(2 * count, layer)[: count + 1]
@@ -255,18 +248,16 @@ def _part(count: int, layer: int, cuts: Collection[str]) -> np.ndarray:
 
 
 def facets_on(mesh: MeshQuad, load: EdgeLoad) -> np.ndarray:
-    """The facets (k,) of a load's edge, or of its part in a shape, whose borders lie on their ends."""
+    """Return the facets (k,) of a load's edge, or of its part in a shape, whose borders lie on their ends."""
     facets = np.asarray(mesh.boundaries[load.edge])
     if load.where is None:
         return facets
     import shapely
 
     middles = shapely.points(mesh.p[:, mesh.facets[:, facets]].mean(axis=1).T)
-    return facets[
-        shapely.distance(load.where.area, middles) < COINCIDENT * np.ptp(mesh.p)
-    ]  # but for rounding
+    return facets[shapely.distance(load.where.area, middles) < COINCIDENT * np.ptp(mesh.p)]
 
 
 def quarters(element_nodes: np.ndarray) -> np.ndarray:
-    """Nine-node elements (9, m) as bilinear cells (4 m, 4) for drawing."""
+    """Return nine-node elements (9, m) as bilinear cells (4 m, 4) for drawing."""
     return element_nodes.T[:, _QUARTERS].reshape(-1, 4)

@@ -1,4 +1,4 @@
-"""Points of meshes that follow shapes: along borders, a row beside them, and those of a quadtree in the rest.
+"""Points of meshes that follow shapes: along borders, in a row beside them, and on a quadtree in the rest.
 
 Borders are divided by their length, finer where they turn or lie close to each other; sizes grow from there.
 Lengths are in sizes of the largest triangles, two elements.
@@ -18,18 +18,17 @@ if TYPE_CHECKING:
     from shapely import LineString
     from shapely.geometry.base import BaseGeometry
 
-CORNER = np.pi / 9.0  # by which a border turns at a corner; where it turns by less it is a curve
-TURN = np.pi / 4.0  # of a curve from one vertex of the triangles to the next
+CORNER = np.pi / 9.0  # least turn of a border at a corner; with less it is a curve
+TURN = np.pi / 4.0  # turn of a curve from one vertex of the triangles to the next
 GROWTH = 0.5  # of sizes, with the distance
-SMALLEST, NARROWEST = 1.0 / 256.0, 1.0 / 32.0  # by turns and by gaps
-GRID, NEAR = 1e-9, 1e-7  # of rounding; within which points are on the sheet
-CLEARANCE = 0.6  # of the local size, between borders and inner points
-SAMPLES = 4  # of a border, by size
+SMALLEST, NARROWEST = 1.0 / 256.0, 1.0 / 32.0  # sizes by turns and by gaps
+GRID, NEAR = 1e-9, 1e-7  # of rounding; distance within which points are on the sheet
+CLEARANCE = 0.6  # distance between borders and inner points, over the local size
+SAMPLES = 4  # of a border, per size
 
 
 class Sides(NamedTuple):
-    """Of borders: the vertices at their ends (k, 2), the border each lies on (k,) and from where to where
-    (k, 2)."""
+    """Sides of borders: end vertices (k, 2), border of each (k,) and its interval along it (k, 2)."""
 
     ends: np.ndarray
     border: np.ndarray
@@ -41,70 +40,70 @@ class Sides(NamedTuple):
 
 
 def borders_between_corners(region: BaseGeometry, inner: BaseGeometry) -> list[LineString]:
-    """The borders from corner or crossing to corner or crossing."""
+    """Return the borders from corner or crossing to corner or crossing."""
     import shapely
 
     lines = shapely.get_parts(shapely.union_all([region.boundary, inner], grid_size=GRID))
     on_sheet = shapely.distance(region, shapely.line_interpolate_point(lines, 0.5, normalized=True)) < NEAR
-    found: list[LineString] = []
+    borders: list[LineString] = []
     for line in shapely.get_parts(shapely.line_merge(shapely.union_all(lines[on_sheet]))):
-        at = shapely.get_coordinates(line)
+        points = shapely.get_coordinates(line)
         closed = bool(line.is_closed)
-        steps = np.diff(at, axis=0)
+        steps = np.diff(points, axis=0)
         steps = np.vstack([steps[-1:], steps]) if closed else steps
         turns = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
         corners = np.flatnonzero(np.abs(turns) > CORNER) + (not closed)
         if closed and len(corners):
-            at = np.roll(at[:-1], -corners[0], axis=0)
-            at, corners = np.vstack([at, at[:1]]), corners - corners[0]
-        cuts = np.unique([0, *corners, len(at) - 1])
-        found += [shapely.LineString(at[a : b + 1]) for a, b in pairwise(cuts)]
-    return found
+            points = np.roll(points[:-1], -corners[0], axis=0)
+            points, corners = np.vstack([points, points[:1]]), corners - corners[0]
+        cuts = np.unique([0, *corners, len(points) - 1])
+        borders += [shapely.LineString(points[a : b + 1]) for a, b in pairwise(cuts)]
+    return borders
 
 
 class SizeField(NamedTuple):
-    """Sizes of triangles: those (k,) at places (k, 2) where they must be below 1; they grow from there."""
+    """Sizes of triangles: sizes (k,) below 1 at places (k, 2), from which they grow."""
 
     places: np.ndarray
     sizes: np.ndarray
 
     @classmethod
     def of(cls, region: BaseGeometry, borders: Sequence[LineString], coarse: float) -> SizeField:
-        """By how borders turn, and how close across the sheet they are to others that they do not touch; both
-        are divided more finely by finer meshes; coarse: how much larger elements are than usual ones, at
-        most 1."""
+        """Return the sizes by the turns of borders, and by the gaps across the sheet between borders that do
+        not touch. Finer meshes divide both more finely; coarse: the usual size of elements over the actual
+        one, at most 1."""
         import shapely
 
         places, sizes = [], []
         for border in borders:
-            even = np.linspace(0.0, border.length, 2 + int(SAMPLES * border.length))
+            spaced = np.linspace(0.0, border.length, 2 + int(SAMPLES * border.length))
             turning, radii = _radii(border)
-            along = np.concatenate([even, turning])
-            at = shapely.line_interpolate_point(border, along)
-            own = np.minimum(1.0, coarse * TURN * np.append(np.full(len(even), np.inf), radii))
+            along = np.concatenate([spaced, turning])
+            points = shapely.line_interpolate_point(border, along)
+            near_sizes = np.minimum(1.0, coarse * TURN * np.append(np.full(len(spaced), np.inf), radii))
             for other in borders:
                 if not border.touches(other) and other is not border:
-                    across = shapely.shortest_line(at, other)
+                    across = shapely.shortest_line(points, other)
                     middle = shapely.line_interpolate_point(across, 0.5, normalized=True)
                     gap = np.maximum(coarse * shapely.length(across), NARROWEST)
-                    near = gap < own
+                    near = gap < near_sizes
                     near[near] = shapely.contains(region, middle[near])
-                    own[near] = gap[near]
-            places.append(shapely.get_coordinates(at))
-            sizes.append(np.maximum(own, SMALLEST))
+                    near_sizes[near] = gap[near]
+            places.append(shapely.get_coordinates(points))
+            sizes.append(np.maximum(near_sizes, SMALLEST))
         small = np.concatenate(sizes) < 1.0
-        every = cls(np.concatenate(places)[small], np.concatenate(sizes)[small])
-        return cls(*(part[every._first] for part in every))
+        field = cls(np.concatenate(places)[small], np.concatenate(sizes)[small])
+        return cls(*(part[field._first] for part in field))
 
     @property
     def _first(self) -> np.ndarray:
-        """Some of those that lie closer to each other than a quarter of their size, and all others."""
+        """Indices of one entry from each group closer than a quarter of their size, and of all others."""
         cells = np.floor(4.0 * self.places / self.sizes[:, None])
         scale = np.rint(np.log2(self.sizes))
         return np.unique(np.column_stack([cells, scale]), axis=0, return_index=True)[1]
 
     def at(self, points: np.ndarray) -> np.ndarray:
-        """Of points (n, 2)."""
+        """Return the sizes (n,) at points (n, 2)."""
         if not len(self.sizes):
             return np.ones(len(points))
         distance = np.linalg.norm(points[:, None] - self.places, axis=-1)
@@ -112,7 +111,7 @@ class SizeField(NamedTuple):
 
 
 def _radii(border: LineString) -> tuple[np.ndarray, np.ndarray]:
-    """Where along a border it turns, and the radius of the curve there."""
+    """Return the places along a border where it turns, and the radii of the curve there."""
     import shapely
 
     steps = np.diff(shapely.get_coordinates(border), axis=0)
@@ -126,8 +125,8 @@ def _radii(border: LineString) -> tuple[np.ndarray, np.ndarray]:
 def divided_borders(
     borders: Sequence[LineString], size: SizeField, diagonal: np.ndarray
 ) -> tuple[np.ndarray, Sides]:
-    """Points (n, 2) along the borders, one where several meet, and the sides between them; diagonal: which
-    borders are the squares' diagonals."""
+    """Return points (n, 2) along the borders, common where several meet, and the sides between them.
+    diagonal: mask of borders that are diagonals of squares."""
     import shapely
 
     places, ends, on, spans = [], [], [], []
@@ -139,7 +138,7 @@ def divided_borders(
         steps = np.concatenate([[0.0], np.cumsum(np.diff(fine) * 2.0 / (sizes[1:] + sizes[:-1]))])
         least = 3 if border.is_closed else min(2, len(border.coords) - 1)
         count = max(least, int(np.ceil(steps[-1] - 1e-6)))
-        if diagonal[number]:  # as `_quadtree` has them
+        if diagonal[number]:  # as many as in `_quadtree`
             count = max(least, int(np.rint(steps[-1])))
         along = PiecewiseCurve(steps.tolist(), fine.tolist()).at(np.linspace(0.0, steps[-1], count + 1))
         places.append(shapely.get_coordinates(shapely.line_interpolate_point(border, along)))
@@ -147,12 +146,12 @@ def divided_borders(
         ends.append(first + np.arange(count)[:, None] + [0, 1])
         on.append(np.full(count, number))
         spans.append(np.column_stack([along[:-1], along[1:]]))
-    points, same = np.unique(np.round(np.concatenate(places), 9), axis=0, return_inverse=True)
-    return points, Sides(same.ravel()[np.concatenate(ends)], np.concatenate(on), np.concatenate(spans))
+    points, indices = np.unique(np.round(np.concatenate(places), 9), axis=0, return_inverse=True)
+    return points, Sides(indices.ravel()[np.concatenate(ends)], np.concatenate(on), np.concatenate(spans))
 
 
 def on_borders(borders: Sequence[LineString], number: np.ndarray, along: np.ndarray) -> np.ndarray:
-    """Points (k, 2) along borders."""
+    """Return points (k, 2) along borders, by the border's number and the length along it."""
     import shapely
 
     return shapely.get_coordinates(shapely.line_interpolate_point(np.array(borders)[number], along))
@@ -166,8 +165,9 @@ def filling(
     diagonal: np.ndarray,
     orbits: Callable[[np.ndarray], np.ndarray],
 ) -> np.ndarray:
-    """Inner points (n, 2): a row along borders, beside a diagonal those of squares across it, then corners of
-    a quadtree's cells; orbits: what gives of points (k, 2) those (m, n, 2) to be kept together."""
+    """Return inner points (n, 2): a row along borders, the squares' points across diagonals, then a
+    quadtree's corners. orbits: a function from points (k, 2) to images (m, n, 2), points that are kept or
+    dropped together."""
     import shapely
 
     closed = np.array([border.is_closed for border in borders])
@@ -176,27 +176,27 @@ def filling(
     on, across = sides.border[inner], across[inner]
     along = np.where(across, sides.middle[inner], sides.span[inner, 0])
     step = 1e-3 * np.ptp(sides.span[inner], axis=1)
-    at, ahead, behind = (on_borders(borders, on, along + by) for by in (0.0, step, -step))
+    points_on, ahead, behind = (on_borders(borders, on, along + by) for by in (0.0, step, -step))
     tangent = ahead - behind
-    depth = np.where(across, 500.0 * step, size.at(at))
+    depth = np.where(across, 500.0 * step, size.at(points_on))
     normal = depth[:, None] * (tangent / np.linalg.norm(tangent, axis=1, keepdims=True))[:, ::-1] * [-1, 1]
-    points = np.concatenate([at + normal, at - normal, _quadtree(region.bounds, size)])
+    points = np.concatenate([points_on + normal, points_on - normal, _quadtree(region.bounds, size)])
     shapely.prepare(region)
     points = points[shapely.contains_xy(region, points)]
-    away = shapely.distance(shapely.points(points), shapely.multilinestrings(borders))
-    together = orbits(points[away > CLEARANCE * size.at(points)])
-    points, many = together.reshape(-1, 2), together.shape[1]
-    clear, kept = CLEARANCE * size.at(points), np.ones(len(together), bool)
-    from scipy.spatial import KDTree  # plain rectangles need not wait for it
+    distances = shapely.distance(shapely.points(points), shapely.multilinestrings(borders))
+    images = orbits(points[distances > CLEARANCE * size.at(points)])
+    points, turns = images.reshape(-1, 2), images.shape[1]
+    gaps, keeps = CLEARANCE * size.at(points), np.ones(len(images), bool)
+    from scipy.spatial import KDTree  # not loaded for rectangles
 
-    for first, second in sorted(KDTree(points).query_pairs(clear.max(initial=0.0))):
-        if kept[first // many] and NEAR < np.linalg.norm(points[first] - points[second]) < clear[second]:
-            kept[second // many] = False
-    return np.unique(np.round(together[kept].reshape(-1, 2), 9), axis=0)
+    for first, second in sorted(KDTree(points).query_pairs(gaps.max(initial=0.0))):
+        if keeps[first // turns] and NEAR < np.linalg.norm(points[first] - points[second]) < gaps[second]:
+            keeps[second // turns] = False
+    return np.unique(np.round(images[keeps].reshape(-1, 2), 9), axis=0)
 
 
 def _quadtree(bounds: tuple[float, float, float, float], size: SizeField) -> np.ndarray:
-    """Corners (n, 2) of cells as small as requested."""
+    """Return the corners (n, 2) of cells of the requested sizes."""
     low, lengths = np.array(bounds[:2]), np.array(bounds[2:]) - bounds[:2]
     counts = np.maximum(np.rint(lengths), 1.0).astype(int)
     side, corners = lengths / counts, []

@@ -1,7 +1,7 @@
 """Quadrilateral meshes of plans with outlines, holes and inner borders of any shape.
 
 The Delaunay triangles of the points (`mesh_points`) are joined in pairs to quadrilaterals, the best pairs
-first; then every quadrilateral is cut into four and every triangle left over into three, and inner vertices
+first; then every quadrilateral is cut into four and every remaining triangle into three, and inner vertices
 are moved to the mean of their neighbours where elements get better. Away from borders the elements are
 squares. Sides on borders are biquadratic: their middle nodes lie on the border too.
 
@@ -38,15 +38,15 @@ if TYPE_CHECKING:
     from shapely import LineString
     from shapely.geometry.base import BaseGeometry
 
-USUAL = 8.0  # sizes across a sheet with that
-SKEW = np.pi / 4.0  # by which corners of two triangles that are joined may differ from right angles
-SKEWEST = np.pi / 3.0  # likewise, where rows along the rim do not make it worse
-FLAT = 1e-6  # of a triangle's longest side squared: area of one between points of a straight border
+USUAL = 8.0  # sizes across a sheet of the usual fineness
+SKEW = np.pi / 4.0  # largest difference from right angles in a quadrilateral of two triangles
+SKEWEST = np.pi / 3.0  # largest difference from right angles beside rows along the rim
+FLAT = 1e-6  # area of a triangle between points of a straight border, over its longest side squared
 SWIRL = 1e-7 * np.array([[1.0, np.sqrt(2.0)], [-np.sqrt(2.0), 1.0]])  # so that no four points lie on a circle
-LAYERS = (0.12, 0.4)  # of the row along the rim, where it is cut
-HALVINGS = 2  # of these, where elements beside it would be too skew
-TIP = 0.5  # of a rim's vertex: least 2 (1 − cos of the angle)
-LEAST_AREA = 0.02  # of an element, from point to point, below which its sides are left straight
+LAYERS = (0.12, 0.4)  # cuts of the row along the rim, as shares of its depth
+HALVINGS = 2  # of the cuts, where elements beside the row would be too skew
+TIP = 0.5  # least 2 (1 − cos of the angle) at a rim's vertex
+LEAST_AREA = 0.02  # least ratio of det J between an element's points; below, its sides stay straight
 ROUNDS, SWEEPS = 12, 6  # of halving sides, of moving vertices
 TOO_CLOSE = (
     "borders of shapes lie too close to each other for elements between them: more elements, or move one"
@@ -57,11 +57,9 @@ TOO_CLOSE = (
 def quadrilaterals(
     region: BaseGeometry, inner: BaseGeometry, spacing: tuple[float, float], graded: bool = False
 ) -> MeshQuad2:
-    """Return a mesh of a plan region with elements of about the spacing along x and y [m].
-
-    inner: lines that sides of elements within the region shall lie on; graded: the row along the rim is cut
-    into thinner ones. Raises NoMesh where borders lie too close to each other to be meshed.
-    """
+    """Return a mesh of a plan region with elements of about the spacing along x and y [m]. inner: lines
+    within the region for sides of elements; graded: the row along the rim is cut into thinner ones. Raises
+    NoMesh where borders lie too close to each other to be meshed."""
     from shapely import affinity
 
     unit = 2.0 * np.array(spacing)
@@ -75,11 +73,11 @@ def quadrilaterals(
     points, sides = divided_borders(borders, size, mirror >= 0)
     inside = filling(region, borders, sides, size, mirror >= 0, plan.orbits)
     points, triangles, sides = _triangles(region, borders, sides, points, inside)
-    own = ~cut[sides.border]
-    border, span = sides.border[own], sides.span[own]
+    on_border = ~cut[sides.border]
+    border, span = sides.border[on_border], sides.span[on_border]
     quarters = [on_borders(borders, border, span @ [1.0 - at, at]) for at in (0.25, 0.5, 0.75)]
     joined = _joined(points, triangles, sides, mirror[sides.border], plan)
-    cells, ends, places = plan.unfolded(joined, sides.ends[own], np.stack(quarters, axis=1))
+    cells, ends, places = plan.unfolded(joined, sides.ends[on_border], np.stack(quarters, axis=1))
     mesh, middles = _cut(cells, ends, places[:, 1])
     ends = np.concatenate([np.column_stack([ends[:, end], middles]) for end in (0, 1)])
     places = np.concatenate([places[:, 0], places[:, 2]])
@@ -93,16 +91,16 @@ def quadrilaterals(
 def _triangles(
     region: BaseGeometry, borders: Sequence[LineString], sides: Sides, points: np.ndarray, inside: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, Sides]:
-    """All points, the triangles (m, 3) of the region counter-clockwise, and the sides, some halved."""
+    """Return all points, the triangles (m, 3) of the region counter-clockwise, and the sides, some halved."""
     import shapely
     from scipy.spatial import Delaunay
 
     for _ in range(ROUNDS):
-        every = np.concatenate([points, inside])
-        swirl = np.sum(every**2, axis=1, keepdims=True) * (every @ SWIRL)
-        triangles = Delaunay(every + swirl).simplices
-        edges = _keys(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), len(every))
-        missing = ~np.isin(_keys(sides.ends, len(every)), edges)
+        vertices = np.concatenate([points, inside])
+        swirl = np.sum(vertices**2, axis=1, keepdims=True) * (vertices @ SWIRL)
+        triangles = Delaunay(vertices + swirl).simplices
+        edges = _keys(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), len(vertices))
+        missing = ~np.isin(_keys(sides.ends, len(vertices)), edges)
         if not missing.any():
             break
         middle, new = sides.middle[missing], len(points) + np.arange(missing.sum())
@@ -115,22 +113,22 @@ def _triangles(
         sides = Sides(np.concatenate([sides.ends[~missing], *halves]), border, np.concatenate(spans))
     else:
         raise NoMesh(TOO_CLOSE)
-    a, b, c = np.moveaxis(every[triangles], 1, 0)
+    a, b, c = np.moveaxis(vertices[triangles], 1, 0)
     twice = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     longest = np.max([np.sum((p - q) ** 2, axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
-    chords = shapely.get_parts(shapely.polygonize(shapely.linestrings(every[sides.ends])))
+    chords = shapely.get_parts(shapely.polygonize(shapely.linestrings(vertices[sides.ends])))
     if not len(chords):
         raise NoMesh(TOO_CLOSE)
-    within = shapely.area(shapely.intersection(chords, region))
-    present = shapely.union_all(chords[within > 0.5 * shapely.area(chords)])
+    areas = shapely.area(shapely.intersection(chords, region))
+    present = shapely.union_all(chords[areas > 0.5 * shapely.area(chords)])
     shapely.prepare(present)
-    kept = (np.abs(twice) > FLAT * longest) & shapely.contains_xy(present, (a + b + c) / 3.0)
+    valid = (np.abs(twice) > FLAT * longest) & shapely.contains_xy(present, (a + b + c) / 3.0)
     turned = np.where(twice[:, None] > 0.0, triangles, triangles[:, ::-1])
-    return every, turned[kept], sides
+    return vertices, turned[valid], sides
 
 
 def _keys(ends: np.ndarray, count: int) -> np.ndarray:
-    """A number for each pair (k, 2) of points, whichever comes first."""
+    """Return a number for each pair (k, 2) of points, which does not depend on their order."""
     low, high = np.sort(ends, axis=1).T
     return np.asarray(low * np.int64(count) + high)
 
@@ -138,63 +136,67 @@ def _keys(ends: np.ndarray, count: int) -> np.ndarray:
 def _joined(
     points: np.ndarray, triangles: np.ndarray, sides: Sides, mirror: np.ndarray, plan: CentredPlan
 ) -> PlanCells:
-    """The quadrilaterals of two triangles each, the best first, and the triangles left over; mirror: (k,) the
-    number of the diagonal that a side lies on, across which a triangle is joined with its image; −1 else."""
+    """Return the quadrilaterals of two triangles each, the best first, and the remaining triangles. mirror:
+    (k,) the number of the diagonal under a side, across which a triangle is joined with its image; −1 else.
+    """
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     keys, borders = _keys(edges, len(points)), _keys(sides.ends, len(points))
     order = np.argsort(keys, kind="stable")
     twin = np.flatnonzero(keys[order][1:] == keys[order][:-1])
-    one, two = order[twin], order[twin + 1]
-    inner = ~np.isin(keys[one], borders)
+    first_edge, second_edge = order[twin], order[twin + 1]
+    inner = ~np.isin(keys[first_edge], borders)
     folded = np.flatnonzero(np.isin(keys, borders[mirror >= 0]))
-    one, two = np.concatenate([one[inner], folded]), np.concatenate([two[inner], folded])
+    first_edge, second_edge = (
+        np.concatenate([first_edge[inner], folded]),
+        np.concatenate([second_edge[inner], folded]),
+    )
     apex = triangles[:, [2, 0, 1]].ravel()
-    quads = np.column_stack([edges[one, 0], apex[two], edges[one, 1], apex[one]])
-    corners, across = points[quads], np.full(len(one), -1)
-    across[len(one) - len(folded) :] = mirror[mirror >= 0][_places(keys[folded], borders[mirror >= 0])]
+    quads = np.column_stack([edges[first_edge, 0], apex[second_edge], edges[first_edge, 1], apex[first_edge]])
+    corners, across = points[quads], np.full(len(first_edge), -1)
+    across[len(first_edge) - len(folded) :] = mirror[mirror >= 0][_places(keys[folded], borders[mirror >= 0])]
     for number, normal in enumerate(plan.mirrors):
         kites = across == number
         corners[kites, 1] = corners[kites, 1] @ reflection(normal)
     skew = np.abs(_angles(corners) - 0.5 * np.pi).max(axis=1)
     place = plan.along(points[quads].mean(axis=1)).max(axis=1)
-    free, chosen = np.ones(len(triangles), bool), []
+    unused, pairs = np.ones(len(triangles), bool), []
     for pair in np.lexsort([np.round(place, DIGITS), np.round(skew, DIGITS)]):
-        a, b = one[pair] // 3, two[pair] // 3
-        if skew[pair] < SKEW and free[a] and free[b]:
-            free[[a, b]] = False
-            chosen.append(pair)
-    alone = across[chosen] < 0
-    kites, left = quads[chosen][~alone][:, [0, 2, 3]], triangles[free]
-    beside = np.concatenate([np.full(len(left), -1), across[chosen][~alone]])
-    return PlanCells(points, quads[chosen][alone], np.concatenate([left, kites]), beside)
+        a, b = first_edge[pair] // 3, second_edge[pair] // 3
+        if skew[pair] < SKEW and unused[a] and unused[b]:
+            unused[[a, b]] = False
+            pairs.append(pair)
+    unmirrored = across[pairs] < 0
+    kites, single = quads[pairs][~unmirrored][:, [0, 2, 3]], triangles[unused]
+    diagonals = np.concatenate([np.full(len(single), -1), across[pairs][~unmirrored]])
+    return PlanCells(points, quads[pairs][unmirrored], np.concatenate([single, kites]), diagonals)
 
 
 def _places(keys: np.ndarray, of: np.ndarray) -> np.ndarray:
-    """Where keys stand among others that have them all."""
+    """Return the indices of keys among other keys, which contain them all."""
     order = np.argsort(of)
     return np.asarray(order[np.searchsorted(of, keys, sorter=order)])
 
 
 def _angles(corners: np.ndarray) -> np.ndarray:
-    """Inner angles (m, k) of polygons (m, k, 2), counter-clockwise."""
+    """Return the inner angles (m, k) of polygons (m, k, 2), counter-clockwise."""
     onwards, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     turn = onwards[..., 0] * back[..., 1] - onwards[..., 1] * back[..., 0]
     return np.asarray(np.arctan2(turn, np.sum(onwards * back, axis=-1)) % (2.0 * np.pi))
 
 
 def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
-    """The mesh of every cell's corners with its centre, and the vertices (k,) in the middles of sides between
-    ends (k, 2), at places (k, 2)."""
+    """Return the mesh of every cell's corners with its centre, and the mid-side vertices (k,) of sides on
+    borders. ends (k, 2): the sides' vertices; places (k, 2): of their middles."""
     count, cells = len(part.points), [part.quads, part.triangles]
-    every, elements = divided(part.points, cells)
+    vertices, elements = divided(part.points, cells)
     edges = [np.stack([cell, np.roll(cell, -1, axis=1)], axis=-1).reshape(-1, 2) for cell in cells]
     middles = count + np.searchsorted(np.unique(_keys(np.concatenate(edges), count)), _keys(ends, count))
-    every[middles] = places
-    return mesh_of_cells(every, elements), middles
+    vertices[middles] = places
+    return mesh_of_cells(vertices, elements), middles
 
 
 def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
-    """The mesh with vertices that are not fixed moved, where none of their elements gets worse."""
+    """Return the mesh with its free vertices moved, where none of their elements gets worse."""
     places, elements, ends = mesh.p.T.copy(), mesh.t.T, mesh.facets
     free = np.ones(len(places), bool)
     free[fixed] = False
@@ -218,7 +220,7 @@ def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
 
 
 def _worst(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
-    """By how much corners differ from right angles (n,): the most in the elements (m, 4) at each vertex."""
+    """Return the largest difference (n,) from a right angle in the elements (m, 4) at each vertex."""
     skew = np.abs(_angles(at[elements]) - 0.5 * np.pi).max(axis=1)
     out = np.zeros(len(at))
     np.maximum.at(out, elements, skew[:, None])
@@ -226,18 +228,18 @@ def _worst(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
 
 
 def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray, np.ndarray]:
-    """The mesh with further rows along its rim, whose vertices give way; ends (k, 2), places (k, 2): of sides
-    on borders and of their middles."""
+    """Return the mesh with further rows along its rim, for which its vertices move inwards; also ends and
+    places. ends (k, 2), places (k, 2): of sides on borders and of their middles."""
     keys, rim = _keys(ends, mesh.nvertices), mesh.boundary_facets()
     on_rim = _places(_keys(mesh.facets[:, rim].T, mesh.nvertices), keys)
     inner = np.setdiff1d(np.arange(len(ends)), on_rim)
-    at, element = mesh.p.T, mesh.f2t[0, rim]
-    inwards = at[mesh.t[:, element]].mean(axis=0) - places[on_rim]
-    along = np.diff(at[ends[on_rim]], axis=1)[:, 0]
+    points, element = mesh.p.T, mesh.f2t[0, rim]
+    inwards = points[mesh.t[:, element]].mean(axis=0) - places[on_rim]
+    along = np.diff(points[ends[on_rim]], axis=1)[:, 0]
     normal = along[:, ::-1] * [-1.0, 1.0] / np.linalg.norm(along, axis=1, keepdims=True)
     deep = np.sum(normal * inwards, axis=1)
     normal, deep = normal * np.sign(deep)[:, None], 2.0 * np.abs(deep)
-    move, depth, count = np.zeros_like(at), np.full(len(at), np.inf), np.zeros(len(at))
+    move, depth, count = np.zeros_like(points), np.full(len(points), np.inf), np.zeros(len(points))
     for end in ends[on_rim].T:
         np.add.at(move, end, normal)
         np.add.at(count, end, 1.0)
@@ -245,41 +247,46 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
     vertices = np.flatnonzero(count)
     square = np.sum(move[vertices] ** 2, axis=1)  # 2 (1 + n₁ · n₂)
     move[vertices] *= (2.0 * depth[vertices] / np.maximum(square, TIP))[:, None]
-    for one, other in ends[inner].T, ends[inner, ::-1].T:  # borders that end there stay where they are
-        meets = count[one] > 0.0
-        step, away = at[other[meets]] - at[one[meets]], move[one[meets]]
-        move[one[meets]] = step * (np.sum(away**2, axis=1) / np.sum(away * step, axis=1))[:, None]
-    allowed, share = np.maximum(_worst(at, mesh.t.T), SKEWEST), np.ones(len(at))
+    for start_vertex, end_vertex in (
+        ends[inner].T,
+        ends[inner, ::-1].T,
+    ):  # borders that end there stay where they are
+        meets = count[start_vertex] > 0.0
+        step, away = points[end_vertex[meets]] - points[start_vertex[meets]], move[start_vertex[meets]]
+        move[start_vertex[meets]] = step * (np.sum(away**2, axis=1) / np.sum(away * step, axis=1))[:, None]
+    allowed, share = np.maximum(_worst(points, mesh.t.T), SKEWEST), np.ones(len(points))
     for _ in range(HALVINGS):
-        share[_worst(at + LAYERS[-1] * share[:, None] * move, mesh.t.T) > allowed + 1e-9] *= 0.5
+        share[_worst(points + LAYERS[-1] * share[:, None] * move, mesh.t.T) > allowed + 1e-9] *= 0.5
     move *= share[:, None]
-    in_middle, bulge = move[ends].mean(axis=1), places - at[ends].mean(axis=1)
+    in_middle, bulge = move[ends].mean(axis=1), places - points[ends].mean(axis=1)
     in_middle[on_rim] -= share[ends[on_rim]].mean(axis=1)[:, None] * bulge[on_rim]  # rows straighten inwards
-    fresh = np.full(len(at), -1)
-    fresh[vertices] = np.arange(len(vertices))
-    new = [len(at) + fresh[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))]
+    rim_number = np.full(len(points), -1)
+    rim_number[vertices] = np.arange(len(vertices))
+    new = [len(points) + rim_number[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))]
     rows, shares = [*new, ends[on_rim]], [0.0, *LAYERS]
-    moved = at + LAYERS[-1] * move
-    every = np.concatenate([moved, *(at[vertices] + share * move[vertices] for share in shares[:-1])])
+    moved = points + LAYERS[-1] * move
+    row_points = np.concatenate(
+        [moved, *(points[vertices] + share * move[vertices] for share in shares[:-1])]
+    )
     turned = along[:, 0] * normal[:, 1] < along[:, 1] * normal[:, 0]
-    more = [np.column_stack([low, high[:, ::-1]]) for low, high in pairwise(rows)]
-    more = [np.where(turned[:, None], quads[:, ::-1], quads) for quads in more]
+    row_quads = [np.column_stack([low, high[:, ::-1]]) for low, high in pairwise(rows)]
+    row_quads = [np.where(turned[:, None], quads[:, ::-1], quads) for quads in row_quads]
     in_rows = [places[on_rim] + share * in_middle[on_rim] for share in shares]
     return (
-        mesh_of_cells(every, np.concatenate([mesh.t.T, *more])),
+        mesh_of_cells(row_points, np.concatenate([mesh.t.T, *row_quads])),
         np.concatenate([ends[inner], *rows]),
         np.concatenate([places[inner] + LAYERS[-1] * in_middle[inner], *in_rows]),
     )
 
 
 def _biquadratic(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray, unit: np.ndarray) -> MeshQuad2:
-    """The mesh [m] with the middle nodes of sides between ends (k, 2) at places (k, 2)."""
+    """Return the mesh [m] with the middle nodes of sides between ends (k, 2) at places (k, 2)."""
     curved = MeshQuad2.from_mesh(mesh)
     keys, nodes = _keys(mesh.facets.T, mesh.nvertices), curved.dofs.element_dofs.T
     straight, at = curved.doflocs.T, curved.doflocs.T.copy()
     facets = _places(_keys(ends, mesh.nvertices), keys)
     middles = curved.dofs.facet_dofs[0, facets]
-    bent = np.abs(places - straight[middles]).max(axis=1) > NEAR  # not by rounding of the vertices alone
+    bent = np.abs(places - straight[middles]).max(axis=1) > NEAR  # by more than rounding of the vertices
     at[middles[bent]] = places[bent]
     for _ in range(2):
         at[nodes[:, 8]] = 0.5 * at[nodes[:, 4:8]].sum(axis=1) - 0.25 * at[nodes[:, :4]].sum(axis=1)

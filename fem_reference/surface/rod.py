@@ -1,14 +1,14 @@
-"""The actuator as a continuous elastic rod along an edge: its strains, its stiffness and what it carries.
+"""Actuator as a continuous elastic rod along an edge: its strains, its stiffness and its weight.
 
 The rod's axis r = φ + c d lies at a height c along the director d of the edge. Its cross-section is bound to
 the edge: it turns with d and with a third director m, which points out of the sheet and is the rod's own.
-With s the arc length along the flat edge,
+Its energy, s being the arc length along the flat edge, is
 
     ½ EI ∫ (κ_n − κ₀)² ds,   κ_n = −r' · d'     bending in the plane of the edge and the normal
     ½ EI ∫ (κ_g − κ₀)² ds,   κ_g = −r' · m'     bending in the sheet's plane
 
-are its energy. A chain neither stretches, shears nor twists, and its joints turn about
-certain axes only; so these vanish, by stiffnesses `FIRM` times the sheet's and `SLENDER` times the rod's own:
+A chain neither stretches, shears nor twists, and its joints turn about certain axes only; so the following
+strains vanish, by stiffnesses `FIRM` times the sheet's and `SLENDER` times the rod's own:
 
     ½ (r' · r' − 1),   r' · d,   r' · m,   d · m,   d' · m,
     and κ_g in the plane "normal" (all m are then parallel), κ_n in the plane "inplane" (all d are).
@@ -49,11 +49,9 @@ _SAMPLES = 400  # of a side, for the mean of a piecewise curvature
 
 
 class RodElements(NamedTuple):
-    """k sides with s strains of a vectors each, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀ (see `discrete.rods`).
-
-    reference: Q₀ (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s, c) of the
-    curvatures of all actuators.
-    """
+    """Sides with s strains of a vectors each, e = ½ Qᵀ H Q − ½ Q₀ᵀ H Q₀ (see `discrete.rods`). reference: Q₀
+    (k, a, 3); forms: H (k, s, a, a); stiffness: S (k, s); intrinsic: e₀ (k, s, c) of the curvatures of all
+    actuators."""
 
     reference: np.ndarray
     forms: np.ndarray
@@ -63,11 +61,9 @@ class RodElements(NamedTuple):
 
 @dataclass(frozen=True)
 class Rod:
-    """The rod along an edge of p nodes: the chains that it stands for, by name, and its k sides as elements.
-
-    nodes: (k, 3) of the sheet; places: (k, 3) in `line` (p,), the sheet's nodes along the edge; elements: of
-    Q = (φ, d, m); base: place of the node that is held, or None; offset: of the axis along the director [m].
-    """
+    """Rod along an edge of p nodes: its chains by name, and its k sides as elements. nodes: (k, 3) of the
+    sheet; places: (k, 3) in `line` (p,), the sheet's nodes along the edge; elements: of Q = (φ, d, m); base:
+    place of the held node, or None; offset: of the axis along the director [m]."""
 
     chains: Mapping[str, Chain]
     nodes: np.ndarray
@@ -79,23 +75,23 @@ class Rod:
 
     @property
     def chain(self) -> Chain:
-        """The first of the chains, which agree on their base, segments and plane."""
+        """First of the chains, which agree on their base, segments and plane."""
         return next(iter(self.chains.values()))
 
 
 def of_scene(scene: Scene, plan: Plan) -> list[Rod]:
-    """The rods of a scene's chains, one an edge. Raises BadInput for an edge that is not straight or has no
-    node where a base is held."""
-    return [_rod(scene, edge, here, plan) for edge, here in scene.chains().items()]
+    """Return the rods of a scene's chains, one an edge. Raises BadInput for an edge that is not straight or
+    has no node where a base is held."""
+    return [_rod(scene, edge, chains, plan) for edge, chains in scene.chains().items()]
 
 
-def _rod(scene: Scene, edge_name: str, here: Mapping[str, Chain], plan: Plan) -> Rod:
-    edge, chains, nodes = EDGES[edge_name], list(here.values()), plan.nodes
+def _rod(scene: Scene, edge_name: str, chains: Mapping[str, Chain], plan: Plan) -> Rod:
+    edge, chain_list, nodes = EDGES[edge_name], list(chains.values()), plan.nodes
     sides = Line.along(plan, plan.mesh.boundaries[edge_name]).nodes
     along = nodes[sides, edge.along_axis]
     if np.ptp(nodes[sides, edge.normal_axis]) > 1e-9 * np.ptp(along):
         raise BadInput(f"actuator: edge {edge_name} of the mesh is not straight")
-    offsets = np.array([chain.axis_height(scene.sheet.thickness) for chain in chains])
+    offsets = np.array([chain.axis_height(scene.sheet.thickness) for chain in chain_list])
     offset = float(offsets.mean())
     half = 0.5 * np.abs(along[:, 2] - along[:, 0])  # |dX/dξ|
     line = np.unique(sides)
@@ -106,34 +102,32 @@ def _rod(scene: Scene, edge_name: str, here: Mapping[str, Chain], plan: Plan) ->
     reference[:, 3:6, 2] = 1.0
     reference[:, 6:] = edge.outward
     start = scene.sheet.edge_ends(edge_name)[0][edge.along_axis]
-    rigidity = np.array([chain.bending_stiffness for chain in chains])
-    where = INPLANE if chains[0].plane == "inplane" else NORMAL
+    rigidity = np.array([chain.bending_stiffness for chain in chain_list])
+    bending = INPLANE if chain_list[0].plane == "inplane" else NORMAL
     length = scene.sheet.lengths[edge.along_axis]
     intrinsic = np.zeros((len(sides), STRAINS, len(scene.actuators)))
-    for chain, share in zip(chains, rigidity / rigidity.sum(), strict=True):
+    for chain, share in zip(chain_list, rigidity / rigidity.sum(), strict=True):
         mean = _mean_curvature(chain, length, along - start)
-        intrinsic[:, where, scene.actuators.index(chain)] += share * mean * half[:, None] ** 2
+        intrinsic[:, bending, scene.actuators.index(chain)] += share * mean * half[:, None] ** 2
     return Rod(
-        chains=here,
+        chains=chains,
         nodes=sides,
         places=places,
         line=line,
         elements=RodElements(
             reference=reference,
             forms=np.tile(_forms(offset), (len(sides), 1, 1, 1)),
-            stiffness=_stiffness(scene, chains[0].plane, float(rigidity.sum()), length, half),
+            stiffness=_stiffness(scene, chain_list[0].plane, float(rigidity.sum()), length, half),
             intrinsic=intrinsic,
         ),
-        base=_base(chains[0], nodes[line, edge.along_axis] - start, length),
+        base=_base(chain_list[0], nodes[line, edge.along_axis] - start, length),
         offset=offset,
     )
 
 
 def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarray:
-    """Curvature at the two Gauss points (k, 2) that does the work of the piecewise one on linear fields.
-
-    along: distance from the start of the edge (k, 3) [m] of the sides' nodes.
-    """
+    """Return the curvature at the two Gauss points (k, 2) with the work of the piecewise one on linear
+    fields. along: distance from the start of the edge (k, 3) [m] of the sides' nodes."""
     bounds, values = chain.pieces() * length / chain.segments, chain.curvatures().at()
     xi = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * 2.0 - 1.0
     at = along[:, :1] + 0.5 * (xi + 1.0) * (along[:, 2:] - along[:, :1])
@@ -142,16 +136,16 @@ def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarra
 
 
 def _forms(offset: float) -> np.ndarray:
-    """H (15, 9, 9) with ½ Qᵀ H Q the covariant strains."""
-    none, node = np.zeros((2, 3)), np.eye(9)
+    """Return H (15, 9, 9) with ½ Qᵀ H Q the covariant strains."""
+    zeros, node = np.zeros((2, 3)), np.eye(9)
     axis, director, bent, aside, bent_aside = (
         np.concatenate(parts, axis=1)
         for parts in (
-            (_SLOPE, offset * _SLOPE, none),  # r'
-            (none, _VALUE, none),
-            (none, _SLOPE, none),
-            (none, none, _VALUE),
-            (none, none, _SLOPE),
+            (_SLOPE, offset * _SLOPE, zeros),  # r'
+            (zeros, _VALUE, zeros),
+            (zeros, _SLOPE, zeros),
+            (zeros, zeros, _VALUE),
+            (zeros, zeros, _SLOPE),
         )
     )
     pairs = [(0.5 * axis, axis), (axis, director), (axis, aside), (-axis, bent), (-axis, bent_aside)]
@@ -165,7 +159,8 @@ def products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: np.ndarray) -> np.ndarray:
-    """Stiffness (k, 15) of the covariant strains: what is elastic has EI, what is firm `FIRM` of its kind."""
+    """Return the stiffness (k, 15) of covariant strains: EI of elastic, `FIRM` times the sheet's of
+    others."""
     young, thickness = scene.material.young, scene.sheet.thickness
     force = FIRM * young * thickness * length + SLENDER * rigidity / length**2
     out_of_plane = FIRM * young * thickness**3 * length + SLENDER * rigidity
@@ -182,7 +177,7 @@ def _stiffness(scene: Scene, plane: str, rigidity: float, length: float, half: n
 
 
 def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
-    """Place on the edge of the node that the base holds."""
+    """Return the place on the edge of the node that the base holds."""
     if chain.base == "free":
         return None
     at = {"start": 0.0, "middle": 0.5, "end": 1.0}[chain.base] * length
@@ -193,7 +188,7 @@ def _base(chain: Chain, along: np.ndarray, length: float) -> int | None:
 
 
 def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
-    """The supports with what the rods' bases hold: position and director of a node, under its name."""
+    """Return the supports with the rods' bases, which hold a node's position and director."""
     director, edges = supports.director.copy(), dict(supports.edges)
     for rod in rods:
         if rod.base is not None:
@@ -205,11 +200,9 @@ def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
 
 @dataclass(frozen=True)
 class BoundRods:
-    """The rods of a scene among the vectors (N, 3) of a model, those of the sheet first, then the rods' own.
-
-    elements: all rods' sides; sites: (k, a) of Q among the model's vectors; own: the rods' own vectors at
-    rest (q, 3), which come last; held: (q,) whether a base holds them.
-    """
+    """Rods of a scene among the vectors (N, 3) of a model, the sheet's first, then the rods' own. elements:
+    all rods' sides; sites: (k, a) of Q among the model's vectors; own: the rods' own vectors at rest (q, 3),
+    which come last; held: (q,) whether a base holds them."""
 
     rods: tuple[Rod, ...]
     elements: RodElements
@@ -218,7 +211,7 @@ class BoundRods:
     held: np.ndarray
 
     def by_rod(self, of_sides: np.ndarray) -> list[np.ndarray]:
-        """Values (k, …) of all sides, rod by rod."""
+        """Return values (k, …) of all sides, rod by rod."""
         return np.split(of_sides, np.cumsum([len(rod.nodes) for rod in self.rods])[:-1]) if self.rods else []
 
 
@@ -229,25 +222,27 @@ def bound(
     of_sheet: Callable[[Rod], tuple[RodElements, np.ndarray]],
     directors: int = 1,
 ) -> BoundRods:
-    """The rods on a sheet that has the first vectors; of_sheet: a rod's sides, of so many vectors each, and
-    where their first ones (k, …) are among the sheet's. Their last ones are so many directors, each of three
-    nodes, of the rods' own: one of all nodes of a rod after the other."""
+    """Return the rods on a sheet with `first` vectors. of_sheet: returns a rod's sides, of `vectors` vectors
+    each, and the indices of the first ones (k, …) among the sheet's. The last ones are `directors` directors
+    of the rod's own at three nodes; each director has all nodes of a rod in sequence."""
     shapes = (vectors, 3), (1, vectors, vectors), (1,), (1, 0)
-    none = np.zeros((0, vectors), dtype=int), np.zeros((0, 3)), np.zeros(0, dtype=bool)
-    parts = [(*none, *(np.zeros((0, *shape)) for shape in shapes))]
+    empty = np.zeros((0, vectors), dtype=int), np.zeros((0, 3)), np.zeros(0, dtype=bool)
+    parts = [(*empty, *(np.zeros((0, *shape)) for shape in shapes))]
     for rod in rods:
-        (elements, there), (k, p) = of_sheet(rod), (len(rod.nodes), len(rod.line))
-        aside = first + p * np.arange(directors)[:, None] + rod.places[:, None]
-        own = np.repeat(elements.reference[0, -3 * directors :: 3], p, axis=0)
+        (elements, on_sheet), (k, p) = of_sheet(rod), (len(rod.nodes), len(rod.line))
+        on_rod = first + p * np.arange(directors)[:, None] + rod.places[:, None]
+        at_rest = np.repeat(elements.reference[0, -3 * directors :: 3], p, axis=0)
         held = np.tile(np.arange(p) == (-1 if rod.base is None else rod.base), directors)
-        parts.append((np.concatenate([there, aside.reshape(k, -1)], axis=1), own, held, *elements))
+        parts.append((np.concatenate([on_sheet, on_rod.reshape(k, -1)], axis=1), at_rest, held, *elements))
         first += directors * p
-    sites, own, held, *of_sides = (np.concatenate(part) for part in zip(*(parts[1:] or parts), strict=True))
-    return BoundRods(tuple(rods), RodElements(*of_sides), sites, own, held)
+    sites, at_rest, held, *of_sides = (
+        np.concatenate(part) for part in zip(*(parts[1:] or parts), strict=True)
+    )
+    return BoundRods(tuple(rods), RodElements(*of_sides), sites, at_rest, held)
 
 
 def block_diagonal(blocks: Sequence[np.ndarray]) -> np.ndarray:
-    """Blocks (k, r, c) along the diagonal, (k, Σ r, Σ c)."""
+    """Return blocks (k, r, c) along the diagonal, (k, Σ r, Σ c)."""
     rows, columns = (np.cumsum([0, *(block.shape[axis] for block in blocks)]) for axis in (1, 2))
     out = np.zeros((len(blocks[0]), rows[-1], columns[-1]))
     for i, block in enumerate(blocks):

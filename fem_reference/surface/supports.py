@@ -1,10 +1,9 @@
-"""What supports and moved edges hold in the sheet, as a function of the load factor or of time.
+"""Held positions and directors of supports and moved edges, by the load factor or time.
 
-Of every node the position φ = X + u and the director d may be held. Where a bent rod, a tilted clamp or a
-motion puts them is the scene's to say (`scenes.meaning.kinematics`); statics take the last pose of a
-motion and the last sample of a support that moves. Where two supports share a corner both hold what they
-hold. A corner of a moved edge belongs to the motion and not to a support beside it, which scenes refuse if
-it contradicts; two motions share its force.
+The position φ = X + u and the director d of every node may be held. `scenes.meaning.kinematics` gives their
+values at a bent rod, a tilted clamp or a motion; statics take the last pose of a motion and the last sample
+of a support that moves. Two supports at a common corner act together. A corner of a moved edge belongs to the
+motion and not to a support beside it, which scenes refuse if it contradicts; two motions share its force.
 """
 
 from __future__ import annotations
@@ -23,13 +22,13 @@ from sheetbench.scenes.objects.shapes import COINCIDENT
 from sheetbench.scenes.objects.supports import Point, named, place
 from sheetbench.scenes.objects.tables import PiecewiseCurve
 
-ROUNDED = 1e-9  # of a velocity, that slopes on both sides of a moment may differ by
+ROUNDED = 1e-9  # relative difference of slopes before and after a moment that counts as rounding
 
 
 @dataclass(frozen=True)
 class Driven:
-    """Nodes (k,) of a bent, tilted or moved edge, and their plan positions (k, 2) [m]; part: of the force on
-    each node that is a motion's (k,)."""
+    """Nodes (k,) of a bent, tilted or moved edge, and their plan positions (k, 2) [m]. part: share of the
+    force on each node that belongs to the edge (k,)."""
 
     nodes: np.ndarray
     points: np.ndarray
@@ -39,12 +38,10 @@ class Driven:
 
 @dataclass(frozen=True)
 class Supports:
-    """What is held: edges: name → components of the position that it holds (n, 3); director (n,).
-
-    tilt: (n, 2), whether the director's component along x or y is held at 0, as on a plane of symmetry;
-    turning: what bends or tilts edges that are held; moved: what moves edges, by the actuators' names;
-    shifts: the courses of the supports that move (`scenes.supports.Motion`), by name.
-    """
+    """Held components: edges: name → components of the position (n, 3); director (n,). tilt: (n, 2), whether
+    the director's component along x or y is held at 0, as on a plane of symmetry; turning: held edges that
+    are bent or tilted; moved: moved edges, by the actuators' names; shifts: the courses of the supports that
+    move (`scenes.supports.Motion`), by name."""
 
     edges: dict[str, np.ndarray]
     director: np.ndarray
@@ -55,17 +52,17 @@ class Supports:
 
     @cached_property
     def position(self) -> np.ndarray:
-        """Components of the position that anything holds (n, 3)."""
+        """Components of the position held by any support (n, 3)."""
         return sum(self.edges.values(), np.zeros((len(self.director), 3), dtype=bool))
 
     @property
     def driven(self) -> tuple[Driven, ...]:
-        """Everything that puts held nodes elsewhere; of what shares a corner the last counts there."""
+        """All edges with prescribed places; at a common corner the last one counts."""
         return (*self.turning, *self.moved.values())
 
     def change(self, load_factor: float, time: float | None = None) -> np.ndarray:
-        """Prescribed change (2, n, 3) of positions [m] and directors; zero where nothing moves them. time
-        [s]: of motions, their last samples where None."""
+        """Return the prescribed change (2, n, 3) of positions [m] and directors, zero elsewhere. time [s]: of
+        motions, their last samples where None."""
         out = np.zeros((2, len(self.director), 3))
         for driven in self.driven:
             placed = driven.edge.placed(driven.points, load_factor, time)
@@ -75,11 +72,11 @@ class Supports:
         return out
 
     def shift(self, time: float | None = None) -> np.ndarray:
-        """Where supports that move are at a time [s], or in the end (n, 3) [m]."""
+        """Return the displacement (n, 3) [m] of moving supports at a time [s], or at the end."""
         return self._shifted(lambda course: course.at(time))
 
     def rate(self, time: float) -> np.ndarray:
-        """Rate (2, n, 3) of that change from a time [s] on."""
+        """Return the rate (2, n, 3) of `change` from a time [s] on."""
         out = np.zeros((2, len(self.director), 3))
         out[0] = self._shifted(lambda course: course.slope(time))
         for moved in self.moved.values():
@@ -90,25 +87,25 @@ class Supports:
         return out
 
     def jumps(self, time: float) -> bool:
-        """Whether a support changes its velocity at once."""
+        """Return whether a support's velocity jumps at a time [s]."""
         slopes = [(course.slope(time), course.slope(time, before=True)) for course in self.shifts.values()]
         return any(np.abs(a - b).max() > ROUNDED * np.abs([a, b]).max() for a, b in slopes)
 
     def _shifted(self, of: Callable[[PiecewiseCurve], np.ndarray]) -> np.ndarray:
-        """Values of the supports' courses (3,), where and along what they hold (n, 3)."""
+        """Return values of the supports' courses (3,), on the nodes and components that they hold (n, 3)."""
         out = np.zeros((len(self.director), 3))
         for name, course in self.shifts.items():
             np.copyto(out, of(course), where=self.edges[name])
         return out
 
     def reactions(self, nodal: np.ndarray) -> dict[str, np.ndarray]:
-        """Force [N] (3,) of each support from the nodal ones (n, 3); supports that hold the same share it."""
+        """Return the force [N] (3,) of each support from nodal forces (n, 3), shared between supports."""
         shared = nodal / np.maximum(sum(self.edges.values()), 1)
         return {name: np.sum(shared, axis=0, where=held) for name, held in self.edges.items()}
 
 
 def _node_at(nodes: np.ndarray, support: Point, name: str) -> np.ndarray:
-    """The node (1,) at a point. Raises BadInput where a mesh has none, as one of the caller's own."""
+    """Return the node (1,) at a point. Raises BadInput where the mesh, as a caller's own, has none."""
     far = np.linalg.norm(nodes - np.array(support.at), axis=1)
     if far.min() > 1e3 * COINCIDENT * np.ptp(nodes, axis=0).max():
         raise BadInput(f"{name}.at = {list(support.at)}: no node of the mesh is there")
@@ -116,7 +113,7 @@ def _node_at(nodes: np.ndarray, support: Point, name: str) -> np.ndarray:
 
 
 def of_scene(scene: Scene, plan: Plan) -> Supports:
-    """The supports and moved edges of a scene on the nodes of a plan."""
+    """Return the supports and moved edges of a scene on the nodes of a plan."""
     nodes = plan.nodes
     named_supports = named(scene.supports)
     on_edge = {str(on.edge): plan.on_boundary(on.edge) for on in scene.actuators}
@@ -149,5 +146,5 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
     turning = tuple(driven(edge) for edge in bent_or_tilted(scene.supports, scene.sheet))
     moved = {name: driven(MovedEdge(motion, scene.sheet)) for name, motion in motions.items()}
     director |= tilt.all(axis=1)
-    shifts = {name: one.motion.course for name, one in named_supports.items() if one.motion is not None}
+    shifts = {name: held.motion.course for name, held in named_supports.items() if held.motion is not None}
     return Supports(edges, director, tilt, turning, moved, shifts)

@@ -1,4 +1,4 @@
-"""A function of strain with its derivatives, as every law gives them: energy, stress and tangent."""
+"""Function of strain with its derivatives: a law's energy, stress and tangent."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fem_reference.surface.materials import times
 
 
 class Triad(NamedTuple):
-    """A function of strains (…, k) with its first and second derivative: (…), (…, k), (…, k, k)."""
+    """Function of strains (…, k) with its first and second derivative: (…), (…, k), (…, k, k)."""
 
     value: np.ndarray
     first: np.ndarray
@@ -19,12 +19,12 @@ class Triad(NamedTuple):
     def times(self, other: Triad) -> Triad:
         """Return the product with another function."""
         (a, a_by, a_twice), (b, b_by, b_twice) = self, other
-        both = outer(a_by, b_by)
-        twice = times(a, b_twice) + times(b, a_twice) + both + both.swapaxes(-1, -2)
+        dyad = outer(a_by, b_by)
+        twice = times(a, b_twice) + times(b, a_twice) + dyad + dyad.swapaxes(-1, -2)
         return Triad(a * b, a[..., None] * b_by + b[..., None] * a_by, twice)
 
     def power(self, exponent: float) -> Triad:
-        """Return the power; not a number of what is below zero, unless the exponent is whole."""
+        """Return the power, nan for values below zero unless the exponent is whole."""
         with np.errstate(invalid="ignore"):
             value = self.value**exponent
         slope = exponent * value / self.value
@@ -34,5 +34,5 @@ class Triad(NamedTuple):
 
 
 def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """a ⊗ b (…, k, l) of vectors (…, k) and (…, l)."""
+    """Return a ⊗ b (…, k, l) of vectors (…, k) and (…, l)."""
     return np.asarray(a[..., :, None] * b[..., None, :])

@@ -1,12 +1,11 @@
-"""The table of verification cases, and the answer of `sheetbench verify`: the references against published
-values."""
+"""Verification cases, and the answer of `sheetbench verify`: references against published values."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 from fem_reference.verification import manufactured, patch, round_shapes, square_plates, strain_laws, strips
 from fem_reference.verification.rows import Row
@@ -15,45 +14,47 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import Table, number
 from sheetbench.errors import require_choice
 
+LINEAR = ("plate", "shell")  # models of Mindlin's plate; the shell under small loads
 FIELDS = ("case", "quantity", "computed", "passed", "mesh", "published", "relative", "held_to", "source")
 
 
-# What a benchmark is, and the function of its rows with its arguments.
-CASES: dict[str, tuple[Any, ...]] = {
-    "end-shear": ("cantilever under an end shear", strips.end_shear),
-    "roll-up": ("cantilever rolled up to a full circle", strips.roll_up),
-    "slit-annulus": ("slit annular plate, lifted", round_shapes.slit_annulus),
-    "heavy-elastica": ("strip under its own weight", strips.heavy_elastica),
-    "settling-strip": ("strip that settles under its own weight", strips.settling),
-    "mindlin-simple": (
-        "Mindlin plate, hard simple support",
-        square_plates.loaded,
-        "hinged",
-        "plate",
-        "shell",
-    ),
-    "mindlin-clamped": ("Mindlin plate, clamped", square_plates.loaded, "clamped", "plate", "shell"),
+class Case(NamedTuple):
+    """A benchmark: its title, and the function of its rows with the arguments."""
+
+    title: str
+    rows: Callable[..., Iterable[Row]]
+    arguments: tuple[Any, ...] = ()
+
+
+CASES = {
+    "end-shear": Case("cantilever under an end shear", strips.end_shear),
+    "roll-up": Case("cantilever rolled up to a full circle", strips.roll_up),
+    "slit-annulus": Case("slit annular plate, lifted", round_shapes.slit_annulus),
+    "heavy-elastica": Case("strip under its own weight", strips.heavy_elastica),
+    "settling-strip": Case("strip that settles under its own weight", strips.settling),
+    "mindlin-simple": Case("Mindlin plate, hard simple support", square_plates.loaded, ("hinged", *LINEAR)),
+    "mindlin-clamped": Case("Mindlin plate, clamped", square_plates.loaded, ("clamped", *LINEAR)),
     **{
-        name: (benchmark.title, square_plates.frequencies, benchmark)
+        name: Case(benchmark.title, square_plates.frequencies, (benchmark,))
         for name, benchmark in square_plates.BENCHMARKS.items()
     },
-    "disc-bending": ("thin disc clamped at its hub", round_shapes.bending),
-    "disc-frequencies": ("thin disc clamped at its hub, vibrating", round_shapes.frequencies),
-    "strip-with-hole": ("strip with a round hole, pulled", round_shapes.strip_with_hole),
-    "nafems-le10": ("thick elliptic plate", round_shapes.elliptic_plate),
-    "manufactured-plate": ("manufactured Mindlin plate: error and order", manufactured.plate),
-    "manufactured-solid": ("manufactured block: error and order", manufactured.solid),
-    "large-rotation-order": ("order of the shell, rolled up", strips.order),
-    "locking-plate": ("plate on 8 × 8, h/a from 1e-5 to 0.2", square_plates.locking, "plate"),
-    "locking-shell": ("shell on 8 × 8, h/a from 1e-5 to 0.2", square_plates.locking, "shell"),
-    "locking-solid": ("solid on 8 × 8, ν up to 0.4999", square_plates.locking, "solid"),
-    "strain-laws": ("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
-    "rubber": ("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
-    "orthotropic-plate": ("plate with fibres along x, simply supported", square_plates.fibres, *PLY),
-    "laminate": ("laminate [0/90]s, simply supported", square_plates.fibres, *LAMINATE),
-    "off-axis": ("strip with oblique fibres, pulled", strips.off_axis),
-    "self-bending": ("sheets that are not flat at rest", square_plates.self_bending),
-    "patch": ("patch tests on distorted meshes", patch.rows),
+    "disc-bending": Case("thin disc clamped at its hub", round_shapes.bending),
+    "disc-frequencies": Case("thin disc clamped at its hub, vibrating", round_shapes.frequencies),
+    "strip-with-hole": Case("strip with a round hole, pulled", round_shapes.strip_with_hole),
+    "nafems-le10": Case("thick elliptic plate", round_shapes.elliptic_plate),
+    "manufactured-plate": Case("manufactured Mindlin plate: error and order", manufactured.plate),
+    "manufactured-solid": Case("manufactured block: error and order", manufactured.solid),
+    "large-rotation-order": Case("order of the shell, rolled up", strips.order),
+    "locking-plate": Case("plate on 8 × 8, h/a from 1e-5 to 0.2", square_plates.locking, ("plate",)),
+    "locking-shell": Case("shell on 8 × 8, h/a from 1e-5 to 0.2", square_plates.locking, ("shell",)),
+    "locking-solid": Case("solid on 8 × 8, ν up to 0.4999", square_plates.locking, ("solid",)),
+    "strain-laws": Case("strip pulled one way and both ways, three laws of strain", strain_laws.rows),
+    "rubber": Case("rubber pulled, pressed and sheared, four laws", strain_laws.rubbers),
+    "orthotropic-plate": Case("plate with fibres along x, simply supported", square_plates.fibres, PLY),
+    "laminate": Case("laminate [0/90]s, simply supported", square_plates.fibres, LAMINATE),
+    "off-axis": Case("strip with oblique fibres, pulled", strips.off_axis),
+    "self-bending": Case("sheets that are not flat at rest", square_plates.self_bending),
+    "patch": Case("patch tests on distorted meshes", patch.rows),
 }
 
 
@@ -85,13 +86,13 @@ class Verification(Answer):
         return [Table.of(Row, self.rows, caption, "verification", fields=FIELDS)]
 
     def printed(self) -> list[Table]:
-        """Return a table for every case, with what it is; a column names the mesh where there are several."""
+        """Return a table for every case with its title; a column names the mesh of a case with several."""
         tables = []
         for case, of_case in groupby(self.rows, key=lambda row: row.case):
             rows = list(of_case)
             meshes = {row.mesh for row in rows}
             details = ("case", "mesh")[: 1 + (len(meshes) == 1)]
-            title = f"{case}: {CASES[case][0]}" + (f"; {rows[0].mesh}" if len(meshes) == 1 else "")
+            title = f"{case}: {CASES[case].title}" + (f"; {rows[0].mesh}" if len(meshes) == 1 else "")
             tables.append(Table.of(Row, rows, title, "verification", fields=FIELDS, details=details))
         return tables
 
@@ -108,10 +109,30 @@ class Verification(Answer):
 def verify(
     case: Sequence[str] | str | None = None, starting: Callable[[str], None] = lambda name: None
 ) -> Verification:
-    """Check the references against published values, all cases unless some are named.
+    """Check the references against published values and return the rows.
 
-    starting: called before each case. The answer's `succeeded` says whether all pass. Raises BadInput for a
-    case that does not exist, before anything is computed.
+    Parameters
+    ----------
+    case : str or sequence of str, optional
+        Keys of `CASES`; all cases by default.
+    starting : callable
+        Called with a case's key before the case is computed.
+
+    Returns
+    -------
+    Verification
+        Rows of expected and computed values; `succeeded` is true if all pass.
+
+    Raises
+    ------
+    BadInput
+        For an unknown case, before any case is computed.
+
+    Examples
+    --------
+    >>> from fem_reference.verification import verify
+    >>> verify("patch").succeeded
+    True
     """
     names = list(CASES) if case is None else [case] if isinstance(case, str) else case
     for name in names:
@@ -119,6 +140,5 @@ def verify(
     rows = list[Row]()
     for name in names:
         starting(name)
-        _, rows_of, *given = CASES[name]
-        rows += (replace(row, case=name) for row in rows_of(*given))
+        rows += (replace(row, case=name) for row in CASES[name].rows(*CASES[name].arguments))
     return Verification(rows)

@@ -1,11 +1,11 @@
 """Manufactured solutions of linear elasticity: errors in L² and their order.
 
-A clamped Mindlin square, of plate and linear shell. With q(t) = 5t² − 5t + 1, b_n(t) = tⁿ (t − 1)ⁿ and side
-1, the pressure
+A clamped Mindlin square of side 1, for plate and linear shell: the pressure
 
-    p = E h³/12(1 − ν²) (g(x, y) + g(y, x)),    g = 12 b₁(y) q(x) (2 b₂(y) + b₁(x) q(y))
+    p = E h³/12(1 − ν²) (g(x, y) + g(y, x)),    g = 12 b₁(y) q(x) (2 b₂(y) + b₁(x) q(y)),
 
-bends the plate to the deflection w and the director's tilt β
+where q(t) = 5t² − 5t + 1 and b_n(t) = tⁿ (t − 1)ⁿ, bends the plate to the deflection w and the director's
+tilt β
 
     w = b₃(x) b₃(y)/3 − 2h²/(5(1 − ν)) (b₃(y) b₁(x) q(x) + b₃(x) b₁(y) q(y)),
     β = −(b₃(y) b₂(x) (2x − 1), b₃(x) b₂(y) (2y − 1)).
@@ -15,7 +15,7 @@ A block of bricks, a unit square of thickness ½, held on all its surface at
     u_i = c_i sin(k_i · x + a_i),    in balance with the body force
     b_j = (λ + μ) Σ_i k_ii k_ij u_i + μ |k_j|² u_j.
 
-Near ν = ½ the field is one that keeps the volume (k_ii = 0), as a nearly incompressible body's must.
+Near ν = ½ the field keeps the volume (k_ii = 0), as required of a nearly incompressible body.
 Biquadratic and triquadratic fields: order 3. Source: Chinosi & Lovadina, Comput. Mech. 16 (1995) 36–44.
 """
 
@@ -55,7 +55,7 @@ Field = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 def plate() -> Iterator[Row]:
-    """Errors on the finest mesh, and the order of the last refinement, of plate and shell."""
+    """Yield errors on the finest mesh, and the order of the last refinement, of plate and shell."""
     for model in MODELS:
         for ratio in RATIOS:
             scene = specimen(Sheet(1.0, 1.0, ratio), MATERIAL, around(Clamped))
@@ -67,7 +67,7 @@ def plate() -> Iterator[Row]:
 
 
 def solid() -> Iterator[Row]:
-    """Error on the finest mesh, and the order of the last refinement."""
+    """Yield the error on the finest mesh, and the order of the last refinement."""
     mesh = f"solid {BRICKS[-1]} × {BRICKS[-1]} × {BRICKS[-1] // 2}"
     for poisson in WAVES:
         errors = [_block_error(poisson, n) for n in BRICKS]
@@ -75,8 +75,8 @@ def solid() -> Iterator[Row]:
 
 
 def _errors(model: str, scene: Scene, elements: int) -> tuple[float, float]:
-    """Relative errors in L² of deflection and tilt along x, of the first linear step from the flat sheet on
-    elements × elements."""
+    """Return relative errors in L² of deflection and tilt along x on elements × elements. The answer is the
+    first linear step from the flat sheet."""
     sheet = MODELS[model](rectangle(scene.sheet, elements), scene)
     basis, (pressure, deflection, tilt) = Basis(sheet.plan.mesh, ElementQuad2()), _fields(scene)
     upwards = LinearForm(lambda v, w: pressure(*w.x) * v).assemble(basis)
@@ -91,7 +91,7 @@ def _errors(model: str, scene: Scene, elements: int) -> tuple[float, float]:
 
 
 def _fields(scene: Scene) -> tuple[Field, Field, Field]:
-    """p [Pa], w [m] and the tilt of the director along x, as functions of x and y."""
+    """Return p [Pa], w [m] and the tilt of the director along x, as functions of x and y."""
     thick = scene.sheet.thickness
     by_shear = 2.0 * thick**2 / (5.0 * (1.0 - scene.material.poisson))
     rigidity = section_of(scene.material, thick).bending[0, 0]
@@ -117,11 +117,11 @@ def _fields(scene: Scene) -> tuple[Field, Field, Field]:
 
 
 def _block_error(poisson: float, elements: int) -> float:
-    """Relative error in L² on elements × elements × elements/2 bricks."""
+    """Return the relative error in L² on elements × elements × elements/2 bricks."""
     waves, material = WAVES[poisson], Material(young=1.0, poisson=poisson, density=1.0)
     scene = Scene(name="manufactured", sheet=BLOCK, material=material)
     sheet = DiscreteSolid(rectangle(BLOCK, elements), scene, layers=elements // 2)
-    bricks, rest, (first, second) = sheet.element, np.zeros(sheet.size), lame(material)
+    bricks, rest, (lame_first, lame_second) = sheet.element, np.zeros(sheet.size), lame(material)
 
     def exact(points: np.ndarray) -> np.ndarray:
         return SIZE * np.sin(points @ waves.T + PHASE)
@@ -129,12 +129,14 @@ def _block_error(poisson: float, elements: int) -> float:
     values, volumes = shape(reference().points)[0], bricks.volumes[..., None]
     points = values.T @ bricks.positions  # (m, q, 3)
     u = exact(points)
-    body_force = (first + second) * (u * np.diag(waves)) @ waves + second * np.sum(waves**2, axis=1) * u
+    body_force = (lame_first + lame_second) * (u * np.diag(waves)) @ waves + lame_second * np.sum(
+        waves**2, axis=1
+    ) * u
     force = sheet.scatter(values @ (volumes * body_force))
     positions = sheet.columns.positions.reshape(-1, 3)
     inside = np.all(np.abs(positions - [0.5, 0.5, 0.0]) < np.array([0.5, 0.5, 0.25]) - 1e-9, axis=1)
-    found, free = np.where(inside[:, None], 0.0, exact(positions)).ravel(), np.repeat(inside, 3)
+    displacement, free = np.where(inside[:, None], 0.0, exact(positions)).ravel(), np.repeat(inside, 3)
     matrix = sheet.tangent(sheet.shape(rest, 0.0), rest, 0.0, 0.0)[free]
-    found[free] = DirectSolver().factor(matrix[:, free]).solve(force[free] - matrix @ found)
-    off = values.T @ sheet.gather(found) - u
+    displacement[free] = DirectSolver().factor(matrix[:, free]).solve(force[free] - matrix @ displacement)
+    off = values.T @ sheet.gather(displacement) - u
     return float(np.sqrt(np.sum(volumes * off**2) / np.sum(volumes * u**2)))

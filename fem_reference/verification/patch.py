@@ -1,7 +1,7 @@
 """Patch tests: under a constant stress the inner nodes of distorted meshes are in balance.
 
-Each model's nodes are put where a state of constant strain has them; the result is the largest unbalanced
-force inside over the largest on the rim: zero but for rounding. Plate: constant stretch and curvature,
+Each model's nodes get the positions of a state of constant strain; the result is the largest unbalanced
+force inside over the largest on the rim, zero up to rounding. Plate: constant stretch and curvature,
 linear. Shell: a finite stretch and rotation, and a small constant curvature (with a finite one the positions
 are not biquadratic). Solid: a finite deformation gradient, its top and bottom part of the rim.
 """
@@ -27,12 +27,12 @@ from fem_reference.verification.specimens import specimen
 from sheetbench.scenes import Material, Sheet
 
 ROUNDING = 1e-8
-ELEMENTS, MOVED = 3, 0.25  # inner vertices move by up to so much of an element
+ELEMENTS, MOVED = 3, 0.25  # largest displacement of inner vertices, over an element's size
 SCENE = specimen(Sheet(1.0, 1.0, 0.02), Material(young=1e7, poisson=0.3, density=1000.0), ())
 STRETCH = np.array([[0.10, 0.04], [-0.03, -0.07]])  # displacement gradient in the plane
 CURVATURE = np.array([[1.0, 1.5], [1.5, -1.0]])  # gradient of the director's tilt [1/m]
 TURN = Rotation.from_rotvec([0.7, -1.1, 0.4]).as_matrix()
-THROUGH = {"plate": 1.0, "shell": 1.0, "solid": 1.05}  # by which the directors are stretched
+THROUGH = {"plate": 1.0, "shell": 1.0, "solid": 1.05}  # stretch of the directors
 STATES: list[tuple[Any, str, Any]] = [  # the rotation of a stretch, the size of a curvature
     (DiscretePlate, "constant stretch", np.eye(3)),
     (DiscretePlate, "constant curvature", 1.0),
@@ -43,7 +43,7 @@ STATES: list[tuple[Any, str, Any]] = [  # the rotation of a stretch, the size of
 
 
 def rows() -> Iterator[Row]:
-    """The largest force inside over the largest on the rim for every model and state."""
+    """Yield the largest force inside over the largest on the rim for every model and state."""
     meshes = {"distorted": distorted(), "along a line": following()}
     for (name, mesh), (kind, state, strained) in product(meshes.items(), STATES):
         unbalanced = _unbalanced(kind, mesh, strained)
@@ -52,7 +52,7 @@ def rows() -> Iterator[Row]:
 
 
 def distorted() -> MeshQuad:
-    """The sheet's mesh with its inner vertices moved at random, always alike."""
+    """Return the sheet's mesh with its inner vertices moved by fixed random numbers."""
     mesh = rectangle(SCENE.sheet, ELEMENTS)
     inner, points = mesh.interior_nodes(), mesh.p.copy()
     points[:, inner] += MOVED / ELEMENTS * np.random.default_rng(1).uniform(-1.0, 1.0, (2, len(inner)))
@@ -60,7 +60,7 @@ def distorted() -> MeshQuad:
 
 
 def following() -> MeshQuad:
-    """A mesh of the sheet that follows an oblique line across it."""
+    """Return a mesh of the sheet that follows an oblique line across it."""
     import shapely
 
     square, line = shapely.box(0.0, 0.0, 1.0, 1.0), shapely.LineString([(0.0, 0.3), (1.0, 0.7)])
@@ -68,8 +68,8 @@ def following() -> MeshQuad:
 
 
 def _unbalanced(kind: Any, mesh: MeshQuad, strained: Any) -> float:
-    """The largest force inside the unit square over the largest of a sheet that is stretched and turned, or
-    bent so far."""
+    """Return the largest force inside the unit square over the largest on its rim. strained: rotation of a
+    stretched sheet, or size of its curvature."""
     sheet = kind(mesh, SCENE)
     nodes, moved, bent = sheet.plan.nodes, np.zeros((sheet.nodes, 3)), isinstance(strained, float)
     if bent:

@@ -1,17 +1,17 @@
-"""Sheets with round rims: a disc clamped at its hub, its frequencies, a strip with a hole, pulled, an annulus
-slit and lifted, a thick elliptic plate.
+"""Sheets with round rims: a disc clamped at its hub and its frequencies, a pulled strip with a hole, a lifted
+slit annulus, a thick elliptic plate.
 
     bending      w = q r⁴/64D + C₁ + C₂ r² + C₃ ln r + C₄ r² ln r  of a thin disc held for r ≤ b, free at a,
                  and by shear  w = q/2κGh (a² ln r/b − (r² − b²)/2)
     frequencies  W = A J_n + B Y_n + C I_n + D K_n of λ r/a,  f = λ² √(D/ρh)/2πa²
     strip        largest stress at the hole over the mean beside it far away, by the hole's share of the width
 
-The constants are those of w = w′ = 0 at b and of no moment and no effective shear force at a. The order is
-that of a thicker disc on meshes whose elements are cut in four: curvatures of biquadratic tilts have errors
-of order 2, deflections twice that (Aubin and Nitsche), and so have sides through three points of a circle;
-orders are whole numbers, half of one distinguishes them. In thin discs the shear strain of elements of
-length l that are no parallelograms adds an error like l⁶/h², which hides that one. The stress at the rim of
-a hole goes along it, σ = E ε, and ε is that of the rim's side: the stretch of a mid-node.
+The constants follow from w = w′ = 0 at b and from zero moment and effective shear force at a. The order is
+measured on a thicker disc, on meshes whose elements are cut in four: curvatures of biquadratic tilts have
+errors of order 2, deflections of order 4 (Aubin and Nitsche), and so have sides through three points of a
+circle; orders are whole numbers, half of one distinguishes them. Elements of length l that are no
+parallelograms add an error like l⁶/h² by their shear strain, which hides the order in thin discs. The stress
+at the rim of a hole goes along it, σ = E ε, with the stretch ε of the rim's side.
 
 Slit annulus: E 21e6, ν 0, radii 6 and 10, thickness 0.03, one side of the slit clamped, a force of 0.8 per
 length of the other, which rises nearly as high as the plate is wide. A and B are its inner and outer end.
@@ -84,7 +84,7 @@ Side = tuple[int, float]
 
 
 def disc(thick: float = THICK) -> Scene:
-    """Clamped at its hub under a force per area, like the cube of the thickness [m]."""
+    """Return a disc clamped at its hub under a force per area that grows as the cube of the thickness [m]."""
     turn = 2.0 * np.pi * np.arange(CORNERS) / CORNERS
     outline = RADIUS * (1.0 + np.column_stack([np.cos(turn), np.sin(turn)]))
     sheet = Sheet(2.0 * RADIUS, 2.0 * RADIUS, thick, outline=tuple((x, y) for x, y in outline.tolist()))
@@ -93,7 +93,7 @@ def disc(thick: float = THICK) -> Scene:
 
 
 def bending() -> Iterator[Row]:
-    """The deflection of the rim, and the order in which plate and shell come to it."""
+    """Yield the deflection of the rim, and the order of convergence of plate and shell."""
     thin, thicker, at_rim = disc(), disc(THICKER), (2.0 * RADIUS, RADIUS)
     coarse = cut(mesh_of(thicker, UNCUT))
     meshes = coarse, cut(coarse)
@@ -101,65 +101,66 @@ def bending() -> Iterator[Row]:
         model, source = kind.model, "Timoshenko 1959, art. 17"
         mesh, computed = f"{model} {ELEMENTS} × {ELEMENTS}", moved(thin, at_rim, model, ELEMENTS)[2]
         yield relatively("deflection of the rim [m]", mesh, deflection_at_rim(), source, computed, TOLERANCE)
-        found = (solve_on(kind, each, thicker).displacement(np.array([at_rim])) for each in meshes)
-        errors = [abs(deflection[0, 2] - deflection_at_rim(THICKER)) for deflection in found]
+        answers = (solve_on(kind, refined, thicker) for refined in meshes)
+        rims = [answer.displacement(np.array([at_rim]))[0, 2] for answer in answers]
+        errors = [abs(rim - deflection_at_rim(THICKER)) for rim in rims]
         quantity, mesh = f"order, h/a = {THICKER / RADIUS:g}", f"{model} {UNCUT} × {UNCUT}, cut in 4 and 16"
         yield absolutely(quantity, mesh, 4.0, THEORY, np.log2(errors[0] / errors[1]), OF_ORDER)
 
 
 def cut(mesh: MeshQuad) -> MeshQuad2:
-    """The disc's mesh with each element cut in four, and with the nodes of rim and hub on circles."""
+    """Return the disc's mesh with each element cut in four, and with the nodes of rim and hub on circles."""
     plan = plan_of(mesh)
     fine = MeshQuad2.from_mesh(mesh_of_cells(plan.nodes, quarters(plan.elements.T)))
-    at = fine.doflocs - RADIUS
-    part = np.append(np.hypot(*at[:, fine.t].mean(axis=1)) > HUB, 2)  # 2: beyond the rim
+    centred = fine.doflocs - RADIUS
+    part = np.append(np.hypot(*centred[:, fine.t].mean(axis=1)) > HUB, 2)  # 2: beyond the rim
     border = np.flatnonzero(part[fine.f2t[0]] != part[fine.f2t[1]])
-    on = np.concatenate([fine.facets[:, border].ravel(), fine.dofs.facet_dofs[0, border]])
-    distance = np.hypot(*at[:, on])
-    at[:, on] *= np.where(2.0 * distance > RADIUS + HUB, RADIUS, HUB) / distance
+    nodes = np.concatenate([fine.facets[:, border].ravel(), fine.dofs.facet_dofs[0, border]])
+    distance = np.hypot(*centred[:, nodes])
+    centred[:, nodes] *= np.where(2.0 * distance > RADIUS + HUB, RADIUS, HUB) / distance
     corners, sides, (centres,) = np.split(fine.dofs.element_dofs, [4, 8])
-    at[:, centres] = 0.5 * at[:, sides].sum(axis=1) - 0.25 * at[:, corners].sum(axis=1)
-    return replace(fine, doflocs=at + RADIUS)
+    centred[:, centres] = 0.5 * centred[:, sides].sum(axis=1) - 0.25 * centred[:, corners].sum(axis=1)
+    return replace(fine, doflocs=centred + RADIUS)
 
 
 def frequencies() -> Iterator[Row]:
-    """The lowest of every number of nodal diameters up to 2."""
+    """Yield the lowest frequency for each number of nodal diameters up to 2."""
     rigidity = section_of(METAL, THICK).bending[0, 0]
     scene, scale = disc(), np.sqrt(rigidity / (METAL.density * THICK)) / (2.0 * np.pi * RADIUS**2)
     for model in ("plate", "shell"):
-        found = modes(scene, model, ELEMENTS, count=5).frequencies / scale
-        mesh, by_diameters = f"{model} {ELEMENTS} × {ELEMENTS}", {1: found[:2], 0: found[2], 2: found[3:5]}
-        for n, alike in by_diameters.items():
+        values = modes(scene, model, ELEMENTS, count=5).frequencies / scale
+        mesh, by_diameters = f"{model} {ELEMENTS} × {ELEMENTS}", {1: values[:2], 0: values[2], 2: values[3:5]}
+        for n, pair in by_diameters.items():
             quantity, source = f"λ² with {n} nodal diameters", "Leissa 1969, ch. 2"
-            yield relatively(quantity, mesh, frequency(n), source, np.mean(alike), OF_FREQUENCY)
+            yield relatively(quantity, mesh, frequency(n), source, np.mean(pair), OF_FREQUENCY)
 
 
 def strip_with_hole() -> Iterator[Row]:
-    """The largest stress at the hole over the mean one far away."""
+    """Yield the largest stress at the hole over the mean one far away."""
     for share, published in HOWLAND.items():
         quantity, mesh = f"stress at a hole of {share:g} of the width", f"plate {ACROSS} across"
         yield relatively(quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
 
 
 def slit_annulus() -> Iterator[Row]:
-    """Rise of both ends of the lifted side at each share of the force."""
+    """Yield the rise of both ends of the lifted side at each share of the force."""
     names, mesh = ("w_A at P = {:g} P_max", "w_B at P = {:g} P_max"), f"shell {RADIAL} × {AROUND}"
     source, at = "Sze, Liu & Lo 2004, 3.3", min(LIFTED)
     yield from curve(names, {"shell": mesh}, LIFTED, source, TOLERANCE, rise, RADIAL, half_at=at)
 
 
 def elliptic_plate() -> Iterator[Row]:
-    """σ_yy [MPa] at D."""
+    """Yield σ_yy [MPa] at D."""
     computed, mesh = stress_at_d(*BRICKS)[1, 1] / 1e6, f"solid {BRICKS[0]} × {BRICKS[1]} × {BRICKS[2]}"
     yield relatively("σ_yy at D [MPa]", mesh, -5.38, "NAFEMS 1990, LE10", computed, WITHIN)
 
 
 def deflection_at_rim(thick: float = THICK) -> float:
-    """w [m] at a, of a disc of that thickness [m]."""
+    """Return w [m] at a, of a disc of a thickness [m]."""
     nu, a, b = METAL.poisson, RADIUS, HUB
 
     def terms(r: float) -> np.ndarray:
-        """w, w′, M/−D and (Δw)′ of q r⁴/64D and of 1, r², ln r, r² ln r."""
+        """Return w, w′, M/−D and (Δw)′ of q r⁴/64D and of 1, r², ln r, r² ln r."""
         log = np.log(r)
         first = np.array([4 * r**3, 0.0, 2 * r, 1 / r, r * (2 * log + 1)])
         second = np.array([12 * r**2, 0.0, 2.0, -1 / r**2, 2 * log + 3])
@@ -175,7 +176,7 @@ def deflection_at_rim(thick: float = THICK) -> float:
 
 
 def frequency(n: int) -> float:
-    """λ² of the lowest mode with n nodal diameters."""
+    """Return λ² of the lowest mode with n nodal diameters."""
     nu, b = METAL.poisson, HUB / RADIUS
     kinds = ((jv, jvp, -1.0), (yv, yvp, -1.0), (iv, ivp, 1.0), (kv, kvp, 1.0))
 
@@ -196,7 +197,7 @@ def frequency(n: int) -> float:
 
 
 def concentration(share: float) -> float:
-    """Largest stress at a hole of so much of a strip's width, over the mean one far away."""
+    """Return the largest stress at a hole over the mean far away; share: its diameter over the width."""
     width, length, thick, pull = 1.0, 3.0, 1e-2, 1e3
     middle = (0.5 * length, 0.5 * width)
     hole = Cutout(shape=Shape(circle=Circle(centre=middle, radius=0.5 * share * width)))
@@ -214,7 +215,7 @@ def concentration(share: float) -> float:
 
 
 def rise(model: str, share: float, radial: int) -> np.ndarray:
-    """w (2,) [m] of the inner and the outer end of the lifted side of the annulus, whose slit is along θ = 0:
+    """Return w (2,) [m] of the inner and the outer end of the annulus's lifted side. The slit is along θ = 0:
     y0 (θ = 0) and y1 (θ = 2π)."""
     sheet, material = Sheet(20.0, 20.0, 0.03), Material(young=21e6, poisson=0.0, density=1.0)
     lift = EdgeLoad(edge="y0", force_per_length=(0.0, 0.0, 0.8 * share))
@@ -231,7 +232,7 @@ def rise(model: str, share: float, radial: int) -> np.ndarray:
 
 
 def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
-    """Stress (3, 3) [Pa] at D of the elliptic plate, whose outer face is x1."""
+    """Return the stress (3, 3) [Pa] at D of the elliptic plate, whose outer face is x1."""
     share, angles = np.linspace(0.0, 1.0, radial + 1) ** GRADING, np.linspace(0.0, np.pi / 2.0, around + 1)
 
     def place(outwards: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -255,7 +256,7 @@ def stress_at_d(radial: int, around: int, layers: int) -> np.ndarray:
 
 
 def mapped(first: np.ndarray, second: np.ndarray, place: Callable[..., Any], **sides: Side) -> MeshQuad2:
-    """The mesh with lines at two coordinates, whose nodes lie where `place` puts them [m]; sides: by name the
+    """Return the mesh with lines at two coordinates and nodes at `place` of them [m]. sides: by name the
     coordinate that is constant there, and its value."""
     on = {name: lambda x, axis=axis, at=at: np.isclose(x[axis], at) for name, (axis, at) in sides.items()}
     plan = MeshQuad.init_tensor(first, second).with_boundaries(on)

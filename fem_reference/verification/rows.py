@@ -1,9 +1,9 @@
-"""What a verification case yields: rows of an expected value beside the computed one, and whose it is.
+"""Rows of a verification case: an expected value, its source and the computed value.
 
-`published` is what is expected, `source` says by whom: author and year, a closed form or a theorem, or this
+`published` is the expected value, `source` its author and year, a closed form or a theorem, or this
 project itself on a finer mesh, which proves convergence and no more.
 
-relative is |computed − published| / |published|, or over the case's length scale where the published value
+`relative` is |computed − published| / |published|, or over the case's length scale where the published value
 is 0, and None where neither has a meaning (orders, residuals, manufactured errors): there the
 difference itself is held to the tolerance.
 """
@@ -27,10 +27,8 @@ Values = Sequence[float | None]
 
 @dataclass(frozen=True)
 class Row:
-    """One expected value and whose it is, the mesh it was computed on, the tolerance it is held to.
-
-    case: its key in `CASES`, known where cases are run.
-    """
+    """Expected value with its source, the mesh of the computed one, and the tolerance. case: its key in
+    `CASES`, set when cases are run."""
 
     case: str
     quantity: Annotated[str, Column(prose=True)]
@@ -44,7 +42,7 @@ class Row:
 
     @property
     def held_to(self) -> str:
-        """The tolerance, in per cent where it is relative."""
+        """Tolerance, in per cent where it is relative."""
         if self.relative is None:
             return f"± {number(self.tolerance)}"
         return f"{number(100.0 * self.tolerance)} %"
@@ -53,21 +51,21 @@ class Row:
 def absolutely(
     quantity: str, mesh: str, published: float, source: str, computed: float, tolerance: float
 ) -> Row:
-    """A row held to a difference of its own kind."""
+    """Return a row held to a difference in the quantity's own unit."""
     passed = bool(abs(computed - published) <= tolerance)
     return Row("", quantity, mesh, float(published), source, float(computed), None, tolerance, passed)
 
 
 def relatively(*cells: Any, scale: float | None = None) -> Row:
-    """A row of the cells that `absolutely` takes, held to a relative difference: of `scale` where it is given
-    and else of the published value."""
+    """Return a row of the arguments of `absolutely`, held to a relative difference. It is relative to `scale`
+    where given, else to the published value."""
     row = absolutely(*cells)
     relative = abs(row.computed - row.published) / abs(row.published if scale is None else scale)
     return replace(row, relative=relative, passed=relative <= row.tolerance)
 
 
 def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: float) -> Row:
-    """The largest relative change of the answers from half the mesh: the case's own convergence."""
+    """Return a row of the largest relative change of the answers from half the mesh."""
     change = np.max(np.abs(np.asarray(fine) - coarse)) / np.max(np.abs(fine))
     return absolutely("change from half the mesh", mesh, 0.0, OURS, change, tolerance)
 
@@ -75,8 +73,8 @@ def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: floa
 def convergence(
     of: str, mesh: str, errors: Sequence[float], largest: float, order: float, source: str = EXACT
 ) -> Iterator[Row]:
-    """Rows of the error on the finest of meshes, each with twice the elements of the one before, and of the
-    order of the last refinement; largest: error allowed."""
+    """Yield rows of the error on the finest mesh and of the order of the last refinement. errors: on meshes
+    with twice the elements of the one before; largest: error allowed."""
     coarse, fine = errors[-2:]
     yield absolutely(f"error {of}", mesh, 0.0, source, fine, largest)
     yield absolutely(f"order {of}", mesh, order, THEORY, np.log2(coarse / fine), SLACK)
@@ -93,25 +91,26 @@ def curve(
     size: float = 0.0,
     half_at: float | None = None,
 ) -> Iterator[Row]:
-    """Rows of the values that an answer of each model has at each load of a curve, by names with a place for
-    the load, and of its change from half as many elements at one load, the largest unless given. meshes: by
-    model; source: of all, or by load; size: what is next to nothing beside that is relative to it."""
+    """Yield rows of each model's values at each load of a curve, and of their change from half as many
+    elements. names: with a place for the load; meshes: by model; source: of all, or by load; half_at: load of
+    the change, the largest by default; size: a value far below it is relative to it."""
     for model, mesh in meshes.items():
-        found = {load: answer(model, load, elements) for load in published}
+        answers = {load: answer(model, load, elements) for load in published}
         for load, values in published.items():
-            whose = source if isinstance(source, str) else source[load]
-            for name, expected, computed in zip(names, values, found[load], strict=True):
+            authority = source if isinstance(source, str) else source[load]
+            for name, expected, computed in zip(names, values, answers[load], strict=True):
                 scale = size if abs(expected) < 1e-9 * size else None
-                yield relatively(name.format(load), mesh, expected, whose, computed, tolerance, scale=scale)
+                yield relatively(
+                    name.format(load), mesh, expected, authority, computed, tolerance, scale=scale
+                )
         load = max(published) if half_at is None else half_at
-        yield mesh_change(mesh, answer(model, load, elements // 2), found[load], tolerance)
+        yield mesh_change(mesh, answer(model, load, elements // 2), answers[load], tolerance)
 
 
 def lowest(
-    quantity: str, mesh: str, published: Values, source: str, found: np.ndarray, tolerance: float
+    quantity: str, mesh: str, published: Values, source: str, frequencies: np.ndarray, tolerance: float
 ) -> Iterator[Row]:
-    """Rows of the lowest frequencies, but for those that are not published; quantity: with a place for their
-    number."""
-    for mode, (expected, computed) in enumerate(zip(published, found, strict=True), 1):
+    """Yield rows of the published lowest frequencies; quantity: with a place for the mode's number."""
+    for mode, (expected, computed) in enumerate(zip(published, frequencies, strict=True), 1):
         if expected is not None:
             yield relatively(quantity.format(mode), mesh, expected, source, computed, tolerance)

@@ -1,4 +1,4 @@
-"""Sheets and answers that several cases share."""
+"""Sheets and answers shared by several cases."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sheetbench.answers.solution import Solution, Status
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import EDGES, Clamped, Gravity, Hinged, Material, Scene, Sheet, Support
 
-E1, E2, NU, G = 25e9, 1e9, 0.25, 0.5e9  # Reddy's, of unidirectional plies, in one of his sizes
+E1, E2, NU, G = 25e9, 1e9, 0.25, 0.5e9  # [Pa, -] of Reddy's unidirectional plies
 FIBRES = Material.model_validate(
     {"kind": "orthotropic", "young_1": E1, "young_2": E2, "poisson_12": NU, "shear_12": G, "density": 1500.0}
 )
@@ -24,33 +24,32 @@ FIBRES = Material.model_validate(
 def specimen(
     sheet: Sheet, material: Material, supports: Iterable[Support], load: float = 0.0, **more: Any
 ) -> Scene:
-    """A sheet under a force per area along +z [Pa], and what more a scene has."""
+    """Return a sheet under a force per area along +z [Pa]; more: other fields of the scene."""
     if load:
         more["gravity"] = Gravity(acceleration=(0.0, 0.0, load / (material.density * sheet.thickness)))
     return Scene(name="specimen", sheet=sheet, material=material, supports=tuple(supports), **more)
 
 
 def around(kind: type[Clamped | Hinged], edges: Iterable[str] = EDGES, **more: Any) -> list[Support]:
-    """Supports of a kind along edges, all unless given; more: of their keys."""
+    """Return supports of a kind along edges, by default all; more: their keys."""
     return [kind.model_validate({"edge": edge, **more}) for edge in edges]
 
 
 def moved(
     scene: Scene, at: tuple[float, float], model: str, elements: int | tuple[int, int], **options: Any
 ) -> np.ndarray:
-    """Displacement (3,) [m] of a plan point in a model's answer; not a number where no equilibrium was
-    reached. options: as of `solve`."""
+    """Return the displacement (3,) [m] of a plan point in a model's answer, nan without an equilibrium."""
     solution = solve(scene, model, elements=elements, **options)
     return solution.displacement(np.array([at]))[0] * valid(solution)
 
 
 def valid(solution: Solution) -> float:
-    """1, or not a number of an answer that is no equilibrium."""
+    """Return 1, or nan for an answer that is no equilibrium."""
     return 1.0 if solution.status is Status.CONVERGED else np.nan
 
 
 def linear_step(sheet: DiscreteElements, force: np.ndarray) -> np.ndarray:
-    """q (N,) of the first linear step from the flat sheet under a force (N,) more."""
+    """Return q (N,) of the first linear step from the flat sheet under an additional force (N,)."""
     sheet.items.append(Dead(force, None))
     static = Static(sheet)
     rest = static.rest()

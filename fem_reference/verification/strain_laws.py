@@ -1,16 +1,16 @@
-"""A strip pulled one way, sheared purely and pulled both ways, under each law of strain: closed forms.
+"""Strip pulled one way, sheared purely and pulled both ways, under each law of strain: closed forms.
 
     P/E at a stretch ε = λ − 1      one way                        both ways: over 1 − ν, sheared: over 1 − ν²
     Biot                            ε                              ε
     St Venant–Kirchhoff             ½ λ (λ² − 1)                   ½ λ (λ² − 1)
 
-P is the force per area of the unstrained section; a strip that is sheared keeps its width. Of a rubber
-(`sheetbench.scenes.objects.material`), with the stretches (λ, t, t), (λ, 1, t) or (λ, λ, t),
+P is the force per area of the unstrained section; a sheared strip keeps its width. A rubber
+(`sheetbench.scenes.objects.material`) with the stretches (λ, t, t), (λ, 1, t) or (λ, λ, t) has
 
     P_i = 2 λ_i (f′ + c₀₁ (I₁ − λ_i²)) + (Λ ln J − m)/λ_i
 
-and P = 0 along t. The strip is loaded by P, and the stretch that it shows is held to ε; of rubbers, at λ =
-0.7, 1.5 and 2, the force that holds it.
+and P = 0 along t. The strip is loaded by P, and its stretch compared with ε; a rubber strip is held at λ =
+0.7, 1.5 and 2, and its force compared with P.
 """
 
 from __future__ import annotations
@@ -53,29 +53,29 @@ RUBBERS = [
 
 
 def rows() -> Iterator[Row]:
-    """The stretch of each model under each law, at the force of the closed form."""
-    known = [(model, law) for model in MODELS for law in STRAIN_LAWS if law in LAWS[model]]
-    for (model, law), way, strain in product(known, WAYS, STRAINS):
+    """Yield the stretch of each model under each law, at the force of the closed form."""
+    combinations = [(model, law) for model in MODELS for law in STRAIN_LAWS if law in LAWS[model]]
+    for (model, law), way, strain in product(combinations, WAYS, STRAINS):
         pull = stress(law, way, strain)
         force = pull * MATERIAL.young * SHEET.thickness
         scene = pulled((force, force if way == "both ways" else 0.0))
-        found = moved(scene, SHEET.lengths, model, 2, law=law)[0] / SHEET.length_x
+        computed = moved(scene, SHEET.lengths, model, 2, law=law)[0] / SHEET.length_x
         quantity = f"{law}, {way}: stretch at P/E = {pull:.6f}"
-        yield relatively(quantity, f"{model} 2", strain, EXACT, found, TOLERANCE)
+        yield relatively(quantity, f"{model} 2", strain, EXACT, computed, TOLERANCE)
 
 
 def rubbers() -> Iterator[Row]:
-    """The force that holds each model of each rubber, stretched one way, sheared and both ways to λ = 2."""
+    """Yield the force that holds each model of each rubber, stretched one way, sheared and both ways."""
     for material, way, strain, model in product(RUBBERS, (*WAYS, "sheared"), LARGE, MODELS):
         law = str(material.law)
         quantity = f"{law}, {way}: P/E at a stretch of {100.0 * strain:g} %"
-        found = _held(model, material, stretches(law, way, strain, material)) / material.young
+        computed = _held(model, material, stretches(law, way, strain, material)) / material.young
         expected = stress(law, way, strain, material)
-        yield relatively(quantity, f"{model} 1", expected, EXACT, found, TO_ROUNDING)
+        yield relatively(quantity, f"{model} 1", expected, EXACT, computed, TO_ROUNDING)
 
 
 def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> float:
-    """P/E of a law at a stretch, pulled in one of the `WAYS` or "sheared"."""
+    """Return P/E of a law at a stretch, pulled in one of the `WAYS` or "sheared"."""
     poisson, stretch = material.poisson, 1.0 + strain
     if law in ("biot", "st-venant-kirchhoff"):
         elongation = strain if law == "biot" else 0.5 * stretch * (stretch**2 - 1.0)
@@ -85,7 +85,7 @@ def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> 
 
 
 def stretches(law: str, way: str, strain: float, material: Material) -> list[float]:
-    """λ along x and y and through the thickness of a rubber, the free ones such that nothing pulls there."""
+    """Return the stretches of a rubber along x, y and z, the free ones at zero stress."""
     rubber, stretch = material.replace(law=law), 1.0 + strain
 
     def with_free(free: float) -> list[float]:
@@ -97,9 +97,9 @@ def stretches(law: str, way: str, strain: float, material: Material) -> list[flo
 
 
 def _pull(material: Material, stretches: list[float], axis: int) -> float:
-    """P [Pa] of a rubber along one of its three stretches."""
+    """Return P [Pa] of a rubber along one of its three stretches."""
     energy, along, volume = material.energy, stretches[axis], log(np.prod(stretches))
-    first = sum(one**2 for one in stretches)
+    first = sum(part**2 for part in stretches)
     x = first - 3.0
     if material.law == "gent":
         slope = 0.5 * energy.shear / (1.0 - x / energy.limit)
@@ -111,7 +111,7 @@ def _pull(material: Material, stretches: list[float], axis: int) -> float:
 
 
 def pulled(pulls: tuple[float, float], sheet: Sheet = SHEET, material: Material = MATERIAL) -> Scene:
-    """A strip free to contract, under forces per length [N/m] on x1 along x and on y1 along y."""
+    """Return a strip free to contract, under forces per length [N/m] on x1 along x and on y1 along y."""
     held = (Held(edge="x0", components=("x", "z")), Held(edge="y0", components=("y", "z")))
     along_x = EdgeLoad(edge="x1", force_per_length=(pulls[0], 0.0, 0.0))
     along_y = EdgeLoad(edge="y1", force_per_length=(0.0, pulls[1], 0.0))
@@ -119,10 +119,10 @@ def pulled(pulls: tuple[float, float], sheet: Sheet = SHEET, material: Material 
 
 
 def _held(model: str, material: Material, stretches: list[float]) -> float:
-    """P [Pa] that holds one element of a model of a rubber at its three stretches."""
+    """Return P [Pa] that holds one element of a model of a rubber at its three stretches."""
     sheet = SHEETS[model](pulled((0.0, 0.0), SHEET, material), (1, 1), law=str(material.law))
     by, nodes = np.array(stretches) - 1.0, sheet.plan.nodes
-    through = by[2] if model == "solid" else 0.0  # of directors, which a shell's law has as they are
+    through = by[2] if model == "solid" else 0.0  # strain of directors; a shell's keep their length
     moved, turned = np.pad(nodes * by[:2], ((0, 0), (0, 1))), np.tile([0.0, 0.0, through], (len(nodes), 1))
     residual = Static(sheet).forces(StaticState(sheet.of_vectors(moved, turned)), 0.0).residual
     return -float(sheet.reactions(residual)["x0"][0]) / (SHEET.length_y * SHEET.thickness)

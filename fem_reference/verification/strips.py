@@ -1,22 +1,23 @@
-"""Strips held at x = 0 under loads that bend them far, one that settles under its weight, one with fibres.
+"""Strips held at x = 0: bent far, settling under their weight, with fibres.
 
-A shear force at the end of one of 10 × 1 × 0.1, E 1.2e6, ν 0 (section 3.1), and a moment up to 50π/3 that
-rolls one of 12 × 1 × 0.1 up to a full circle (section 3.2), exact for the inextensible elastica and, with
-ν = 0 and but for a stretch of (h/R)²/12, for the shell:
+A shear force at the end of a strip of 10 × 1 × 0.1, E 1.2e6, ν 0 (section 3.1), and a moment up to 50π/3 that
+rolls a strip of 12 × 1 × 0.1 up to a full circle (section 3.2), exact for the inextensible elastica and, with
+ν = 0 and except for a stretch of (h/R)²/12, for the shell:
 
     −u = L − (EI/M) sin(ML/EI),    w = (EI/M) (1 − cos(ML/EI)).
 
-Nothing is singular: rolled into half a circle, so thin that its stretch is below 1e-9, it also tells the
-order of the shell under large rotations. The tip is as good as the energy: order 4, twice the strains'.
+Nothing is singular: rolled into half a circle, so thin that its stretch is below 1e-9, the strip also
+measures the order of the shell under large rotations. The tip converges like the energy: order 4, twice the
+strains'.
 
 The weight of a strip, the heavy elastica:
 
     EI θ'' = q (L − s) cos θ,    θ(0) = 0,    θ'(L) = 0
 
-One number, qL³/EI, says how far it hangs. The values are this project's solution of that equation by
-collocation, its five digits checked by a test; a strip of h/L = 0.01 is one to within 1e-4 (its stretch and
-transverse shear). In motion, weight on at t = 0, ν 0, Kelvin–Voigt with τ = 10 ms, 0.18 m long, the values
-are those of an inextensible, damped elastica with rotary inertia: chains of 16 and 32 rigid links
+One number, qL³/EI, determines its shape. The values are this project's solution of that equation by
+collocation, its five digits checked by a test; a strip of h/L = 0.01 agrees to within 1e-4 (its stretch and
+transverse shear). The settling strip, weight on at t = 0, ν 0, Kelvin–Voigt with τ = 10 ms, 0.18 m long, is
+compared with an inextensible, damped elastica with rotary inertia: chains of 16 and 32 rigid links
 extrapolated, to 0.4 mm. The sheet turns by more than a right angle.
 
 A long strip with fibres at θ, pulled, is as stiff as 1/E_x = c⁴/E₁ + (1/G₁₂ − 2 ν₁₂/E₁) s² c² + s⁴/E₂.
@@ -72,32 +73,32 @@ TIPS = 1e-3 * np.array(
 
 
 def end_shear() -> Iterator[Row]:
-    """−u and w of the tip at each share of the force."""
+    """Yield −u and w of the tip at each share of the force."""
     names = "−u at P = {:g} P_max", "w at P = {:g} P_max"
     yield from curve(names, MESHES, SHEARED, "Sze, Liu & Lo 2004, 3.1", 5e-3, sheared, ELEMENTS)
 
 
 def roll_up() -> Iterator[Row]:
-    """−u and w of the tip at each share of the moment; where the exact value is 0, relative to the length."""
+    """Yield −u and w of the tip at each share of the moment, relative to the length where exactly 0."""
     names, exact = ("−u at M = {:g} M_max", "w at M = {:g} M_max"), {s: closed_form(s) for s in SHARES}
     yield from curve(names, {"shell": MESHES["shell"]}, exact, EXACT, ROLLED, rolled, ELEMENTS, LENGTH)
 
 
 def order() -> Iterator[Row]:
-    """Error of the tip over the length, and its order, of the strip rolled up."""
+    """Yield the error of the tip over the length, and its order, of the strip rolled up."""
     exact = closed_form(HALF_CIRCLE)
     errors = [np.abs(rolled("shell", HALF_CIRCLE, n, THIN) - exact).max() / LENGTH for n in OF_ORDER]
     yield from convergence("of the tip", f"shell {OF_ORDER[-1]} × 1", errors, LARGEST, ORDER)
 
 
 def heavy_elastica() -> Iterator[Row]:
-    """Drop w/L and shortening u/L of the tip at each load."""
+    """Yield drop w/L and shortening u/L of the tip at each load."""
     names = "w/L at qL³/EI = {:g}", "u/L at qL³/EI = {:g}"
     yield from curve(names, MESHES, HEAVY, "this project, collocation", 2e-3, hanging, ELEMENTS)
 
 
 def settling() -> Iterator[Row]:
-    """The tip's largest difference from the values over its largest displacement, of ux and uz."""
+    """Yield the tip's largest difference from the values over its largest displacement, of ux and uz."""
     motion = simulate(settling_scene(), "shell", 1.5, elements=IN_MOTION, graded=False, every=EVERY)
     off = np.abs(motion.probes["tip"][1:, [0, 2]] - TIPS).max(axis=0) / np.abs(TIPS).max()
     mesh, source = f"shell {IN_MOTION[0]} × {IN_MOTION[1]}", "this project, rigid links"
@@ -107,7 +108,7 @@ def settling() -> Iterator[Row]:
 
 
 def off_axis() -> Iterator[Row]:
-    """E_x/E₂ of strips with fibres at 15, 30 and 60°, from the stretch of their middle third."""
+    """Yield E_x/E₂ of strips with fibres at 15, 30 and 60°, from the stretch of their middle third."""
     sheet, pull = Sheet(length_x=1.0, length_y=0.04, thickness=1e-3), 1e-6 * E2 * 1e-3
     load = EdgeLoad("x1", force_per_length=(pull, 0.0, 0.0))
     for model, degrees in product(("plate", "shell"), (15, 30, 60)):
@@ -116,39 +117,39 @@ def off_axis() -> Iterator[Row]:
         exact = 1.0 / (c**4 / E1 + (1.0 / G - 2.0 * NU / E1) * s**2 * c**2 + s**4 / E2)
         scene = specimen(sheet, FIBRES.replace(angle=angle), (Clamped("x0"),), loads=(load,))
         low, high = (moved(scene, (x, 0.02), model, (60, 4))[0] for x in (0.4, 0.7))
-        found = pull / sheet.thickness * 0.3 / (high - low)
-        yield relatively(f"E_x/E2 at {degrees}°", f"{model} 60 × 4", exact / E2, EXACT, found / E2, 5e-3)
+        modulus = pull / sheet.thickness * 0.3 / (high - low)
+        yield relatively(f"E_x/E2 at {degrees}°", f"{model} 60 × 4", exact / E2, EXACT, modulus / E2, 5e-3)
 
 
 def settling_scene() -> Scene:
-    """The strip that settles, its tip the only probe."""
+    """Return the strip that settles, its tip the only probe."""
     sheet, material = Sheet(0.18, 0.09, 0.002), Material(12e6, 0.0, 1100.0, damping_time=0.01)
     weight = Gravity(acceleration=(0.0, 0.0, -9.81))
     return specimen(sheet, material, (Clamped(edge="x0"),), gravity=weight, probes={"tip": (0.18, 0.045)})
 
 
 def sheared(model: str, share: float, elements: int) -> np.ndarray:
-    """−u and w (2,) [m] of the tip under a share of the force."""
+    """Return −u and w (2,) [m] of the tip under a share of the force."""
     load = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, FORCE * share))
     return _tip(Sheet(10.0, 1.0, 0.1), YOUNG, elements, model, loads=(load,))[[0, 2]] * [-1.0, 1.0]
 
 
 def rolled(model: str, share: float, elements: int, thickness: float = THICKNESS) -> np.ndarray:
-    """−u and w (2,) [m] of the tip under a share of the full circle's moment, 50π/3 at the published h."""
+    """Return −u and w (2,) [m] of the tip under a share of the full circle's moment (50π/3 as published)."""
     moment = share * 2.0 * np.pi / LENGTH * YOUNG * thickness**3 / 12.0
     load = EdgeLoad(edge="x1", moment_per_length=moment)
     return _tip(Sheet(LENGTH, 1.0, thickness), YOUNG, elements, model, loads=(load,))[[0, 2]] * [-1.0, 1.0]
 
 
 def closed_form(share: float) -> np.ndarray:
-    """−u and w (2,) [m] of the strip rolled up, exactly."""
+    """Return −u and w (2,) [m] of the strip rolled up, exactly."""
     angle = 2.0 * np.pi * share
     radius = LENGTH / angle
     return np.array([LENGTH - radius * np.sin(angle), radius * (1.0 - np.cos(angle))])
 
 
 def hanging(model: str, load: float, elements: int) -> np.ndarray:
-    """Drop and shortening (2,) of the tip over the length, at qL³/EI = load; the length is 1 m."""
+    """Return drop and shortening (2,) of the tip over the length, at qL³/EI = load; the length is 1 m."""
     young, thickness = 1e7, 0.01
     weight = -load * young * thickness**3 / 12.0
     return -_tip(Sheet(1.0, 0.1, thickness), young, elements, model, weight)[[2, 0]]
@@ -157,8 +158,8 @@ def hanging(model: str, load: float, elements: int) -> np.ndarray:
 def _tip(
     sheet: Sheet, young: float, elements: int, model: str, weight: float = 0.0, **more: Any
 ) -> np.ndarray:
-    """Displacement (3,) [m] of the free end's middle on that many elements along a strip, under its weight
-    per area [Pa] and what more a scene has."""
+    """Return the displacement (3,) [m] of the free end's middle, on a number of elements along a strip.
+    weight: per area [Pa]; more: other fields of the scene."""
     material = Material(young=young, poisson=0.0, density=1000.0)
     scene = specimen(sheet, material, (Clamped(edge="x0"),), weight, **more)
     # With ν = 0 there are no layers at the ends to grade towards.

@@ -1,11 +1,11 @@
-"""What drives actuators, what acts between them and the sheet, and the simplest one, an edge's motion.
+"""Commands of actuators, forces between them and the sheet, and the simplest actuator, an edge's motion.
 
-A prescribed motion puts masses where they have to be, and what holds them there is found from the sheet. A
-chain has a state of its own. It brings rows of displacement, (rows, 3) [m], which only it understands, and
-binds masses of the edge to them: the displacement of bound mass i is binding[i] @ rows. The sheet's equations
-never see more; equal and opposite forces follow, because one transpose of `binding` carries the masses'
-forces to the chain. Its forces derive from a Lagrangian: multiplier rows enter like any other row, with the
-constraint's residual as their force.
+A prescribed motion sets the displacement of its masses; the force that holds them follows from the sheet. A
+chain has a state of its own: rows of displacement, (rows, 3) [m], to which masses of the edge are bound; the
+displacement of bound mass i is binding[i] @ rows. The sheet's equations contain nothing else of the chain;
+equal and opposite forces follow, because the transpose of `binding` carries the masses' forces to the chain.
+The chain's forces derive from a Lagrangian: multiplier rows enter like any other row, with the constraint's
+residual as their force.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from sheetbench.scenes.meaning.kinematics import MovedEdge
 
 
 class Drive(NamedTuple):
-    """How far commands are: a share of their last value (statics), or, with a time [s], their value then."""
+    """State of the commands: a share of their last value (statics), or their value at a time [s]."""
 
     load_factor: float = 1.0
     time: float | None = None
@@ -29,8 +29,9 @@ class Drive(NamedTuple):
 
 @dataclass(frozen=True)
 class Acting:
-    """What acts between an actuator and the sheet: where its masses are (m, 3) [m], what holds them (m, 3)
-    and its rows with these, as they bind them, (rows, 3) [N], and its rows' displacement y (rows, 3) [m]."""
+    """Forces between an actuator and the sheet. positions: (m, 3) [m] of the actuator's masses; on_masses:
+    (m, 3) [N] force that holds them; on_rows: (rows, 3) [N] force that holds the actuator's rows, the bound
+    masses' force included; y: (rows, 3) [m] displacement of the rows."""
 
     positions: np.ndarray
     on_masses: np.ndarray
@@ -39,9 +40,9 @@ class Acting:
 
 
 class RigidMotion:
-    """A prescribed motion of an edge, a single segment: every bound mass moves as on a rigid bar, where the
-    scene says (`scenes.meaning.kinematics`); movers: how many motions move each mass (n,), which share the
-    force on it."""
+    """A prescribed motion of an edge, a single segment: every bound mass moves as on a rigid bar
+    (`scenes.meaning.kinematics`). movers: (n,) number of motions that move each mass; they share the force
+    on it."""
 
     def __init__(self, motion: EdgeMotion, name: str, sheet: Sheet, lattice: Lattice, movers: np.ndarray):
         self.names: tuple[str, ...] = (name,)
@@ -52,24 +53,24 @@ class RigidMotion:
         self._plan, self._height = rest[:, :2], rest[:, 2]
 
     def driven(self, drive: Drive) -> np.ndarray:
-        """Displacement (m, 3) [m] of the masses."""
+        """Return the displacement (m, 3) [m] of the masses."""
         return self._moved.placed(self._plan, drive.load_factor, drive.time).lifted(self._height)
 
     def velocity(self, time: float) -> np.ndarray:
-        """Velocity (m, 3) [m/s] of the masses from a time [s] on."""
+        """Return the velocity (m, 3) [m/s] of the masses from a time [s] on."""
         return self._moved.velocity(self._plan, self._height, time)
 
     def reactions(self, acting: Acting) -> dict[str, np.ndarray]:
-        """What holding the motion takes."""
+        """Return the force (3,) [N] that holds the motion, by the motion's name among reactions."""
         return {self._held_as: (self._part * acting.on_masses).sum(axis=0)}
 
     def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
-        """What turning the edge takes."""
+        """Return the moment (3,) [N·m] about the origin of the forces that hold the motion."""
         moment: np.ndarray = np.cross(acting.positions, self._part * acting.on_masses).sum(axis=0)
         return moment
 
     def wrenches(self, acting: Acting) -> np.ndarray:
-        """Force and moment about the edge's middle, where it is now."""
+        """Return force and moment about the edge's current middle, (1, 1, 6) [N, N·m]."""
         force = self._part * acting.on_masses
         moment = np.cross(acting.positions - acting.positions.mean(axis=0), force).sum(axis=0)
         return np.concatenate([force.sum(axis=0), moment]).reshape(1, 1, 6)

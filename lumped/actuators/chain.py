@@ -7,14 +7,14 @@ Lagrangian of the rows y (see `lumped.actuators.frames`), with multipliers λ [m
 
 Joints are damped with damping_time × k.
 
-The segments here are the equal parts into which `lumped.actuators.division` divides those of the scene;
-forces are given for the scene's. Chains of a pair are one kinematic chain on the mean of their axes, each
-with its own joints, mass and offset. What binds masses of the edge to them is in `lumped.actuators.binding`.
+The segments of this module are the equal parts into which `lumped.actuators.division` divides the scene's
+segments; forces are given for the scene's segments. Chains of a pair are one kinematic chain on the mean of
+their axes, each with its own joints, mass and offset. `lumped.actuators.binding` binds masses of the edge to
+them.
 
-Where an end is a corner whose position and director another edge holds, so are the chain's end point and, by
-a joint of half length, the bending and the twist of its end segment, which may turn about the director. The
-joint has the curvature of the one beside it. Where another chain shares the corner, the two have its point
-and director in common.
+A corner whose position and director another edge holds also holds the chain's end point and, by a joint of
+half length, the bending and the twist of its end segment, which may turn about the director. The joint has
+the curvature of the next joint. Two chains that share a corner have its point and director in common.
 """
 
 from __future__ import annotations
@@ -36,16 +36,17 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 class BoundChain:
-    """One or several chains on one edge. place: of its rows among all of the lattice; scale: σ [N/m], like
-    the sheet's E h; held: its ends (0 the start, 1 the end) where another edge holds position and director;
-    shared: those where another chain shares the corner, and whether the director's row there is its own.
+    """One or several chains on one edge. place: slice of its rows among all rows of the lattice; scale: σ
+    [N/m], like the sheet's E h; held: its ends (0 the start, 1 the end) where another edge holds position and
+    director; shared: ends whose corner another chain shares, with a flag for ends where the director's row is
+    this chain's.
 
-    rows: number of its own rows; free: (rows, 3) bool, those that can move; multipliers: those among them
-    that are such; pairs: (rows, rows) bool, rows that appear together in tangent, damping or mass; masses:
-    (m,) bound by binding (m, rows); mass: (rows, rows) [kg], for each of the three axes; carried: force [N]
-    whose rounding the residual cannot fall below; rest: value at rest (k, 3) [m] of what its first rows
-    change, points and then directors, which turn as arms do; axis: the points (p, 3) among them, where its
-    segments end; corners: its ends (0, 1) at which a corner of the sheet holds it.
+    rows: number of its rows; free: (rows, 3) bool, components that can move; multipliers: (rows, 3) bool,
+    components that are multipliers; pairs: (rows, rows) bool, rows that appear together in tangent, damping
+    or mass; masses: (m,) bound by binding (m, rows); mass: (rows, rows) [kg], for each of the three axes;
+    carried: force [N] whose rounding the residual cannot fall below; rest: (k, 3) [m] points, then directors,
+    at rest, which the first k rows displace; axis: the points (p, 3) among them, where its segments end;
+    corners: its ends (0, 1) at which a corner of the sheet holds it.
     """
 
     def __init__(
@@ -75,28 +76,29 @@ class BoundChain:
         self._scale = scale * frames.length  # σ ds
         self._commands = [(mean_curvatures(chain, frames), chain.curvatures()) for chain in chains]
         self.rest, self.axis, self.corners = frames.rest, frames.rest[: frames.points], frames.held
-        own = -(-frames.constraints // 3)
-        self.rows = frames.coordinates + own
+        multiplier_rows = -(-frames.constraints // 3)
+        self.rows = frames.coordinates + multiplier_rows
         self.place = slice(start, start + self.rows)
-        multipliers = np.arange(3 * own).reshape(-1, 3) < frames.constraints
+        multipliers = np.arange(3 * multiplier_rows).reshape(-1, 3) < frames.constraints
         self.free = np.concatenate([frames.free, multipliers])
         self.multipliers = np.concatenate([np.zeros_like(frames.free), multipliers])
         self.masses = masses
         rest = lattice.positions[masses]
-        inside, height = (rest - origin) @ along, rest[:, 2] - self.offset
-        self.binding, self.share, self._arms = bind(frames, self.rows, inside, height)
+        arc_length, height = (rest - origin) @ along, rest[:, 2] - self.offset
+        self.binding, self.share, self._arms = bind(frames, self.rows, arc_length, height)
         self.mass = mass_matrix(frames, self.rows, chains, offsets - self.offset)
         self._stiffness = np.array([c.bending_stiffness / frames.length / frames.share for c in chains])
         self.carried = float(self._stiffness.sum(axis=0).max(initial=0.0) / frames.length)
         self._damping = np.array([c.damping_time for c in chains]) @ self._stiffness
         self.damped = bool(self._damping.any())
-        anywhere = frames.length * np.random.default_rng(0).standard_normal((self.rows, 3))
-        touched = self.tangent(anywhere, Drive()).any(axis=(1, 3))
-        self.pairs = touched | (self.mass != 0.0) | np.eye(self.rows, dtype=bool)
+        sample = frames.length * np.random.default_rng(0).standard_normal((self.rows, 3))
+        coupled = self.tangent(sample, Drive()).any(axis=(1, 3))
+        self.pairs = coupled | (self.mass != 0.0) | np.eye(self.rows, dtype=bool)
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
-        """Weight of the segments: what the mass matrix makes of an acceleration of the points, for in a
-        translation the directors stand still. Chains beside the mean axis weigh on the directors too."""
+        """Return the weight (rows, 3) [N] of the segments: the mass matrix times an acceleration of the
+        points, since directors do not move in a translation. Chains off the mean axis load the directors
+        too."""
         weight: np.ndarray = self.mass[:, : self.frames.points].sum(axis=1)[:, None] * acceleration
         return weight
 
@@ -107,10 +109,8 @@ class BoundChain:
         return float(stored.sum()) + offset, self._gradient(y, at.slopes, at.residuals, by_measure)
 
     def average_force(self, start: np.ndarray, end: np.ndarray, drive: Drive) -> np.ndarray:
-        """Discrete gradient: constraint gradients at the mean, where their differences are exact.
-
-        The multiplier rows hold the constraints at the end; their multipliers are the end's.
-        """
+        """Return the discrete gradient (rows, 3) [N], with constraint gradients at the mean, where their
+        differences are exact; multiplier rows hold the constraints at the end, with the end's multipliers."""
         before, middle, after = (self.frames.at(y) for y in (start, 0.5 * (start + end), end))
         springs, _ = self._joint_springs(drive)
         by_measure = joints.average_gradient(before.measures, after.measures, *springs)
@@ -130,9 +130,9 @@ class BoundChain:
         for axis in range(3):
             out[:count, axis, :count, axis] += geometric
         flat = out.reshape(3 * self.rows, 3 * self.rows)
-        place = 3 * count + np.arange(frames.constraints)
-        flat[place, : 3 * count] = self._scale * gradient[: frames.constraints]
-        flat[: 3 * count, place] = flat[place, : 3 * count].T
+        multipliers = 3 * count + np.arange(frames.constraints)
+        flat[multipliers, : 3 * count] = self._scale * gradient[: frames.constraints]
+        flat[: 3 * count, multipliers] = flat[multipliers, : 3 * count].T
         return out
 
     def damping_force(self, y: np.ndarray, v: np.ndarray) -> tuple[float, np.ndarray]:
@@ -160,8 +160,8 @@ class BoundChain:
         return {} if at is None else {self._chains[0].held_as: acting.on_rows[at]}
 
     def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
-        """Return the moment (3,) [N·m] about the origin on the points and directors that are held, and on the
-        frame that a base is."""
+        """Return the moment (3,) [N·m] about the origin on the held points and directors and on a base's
+        frame."""
         at, count = self.frames.at(acting.y), self.frames.coordinates
         whole = np.where(self.free, 0.0, acting.on_rows)[:count]
         moment = np.cross(self.frames.rest + acting.y[:count], whole).sum(axis=0)
@@ -169,18 +169,19 @@ class BoundChain:
         _, by_measure, _ = joints.derivatives(at.measures, *self._joint_springs(drive)[0])
         return moment + on_base + self.frames.ground_couple(at, self._weights(acting.y, by_measure))
 
-    def place_corner(self, end: int, layers: np.ndarray, moved: np.ndarray) -> np.ndarray:
-        """Displacement (rows, 3) [m] that follows a corner's layers at the heights (l,), moved by (l, 3)."""
+    def place_corner(self, end: int, layers: np.ndarray, displacement: np.ndarray) -> np.ndarray:
+        """Return the displacement (rows, 3) [m] that follows a corner's layers, at the heights (l,) [m] and
+        displaced by (l, 3) [m]."""
         frames, spread = self.frames, layers - layers.mean()
-        tilt = spread @ moved / (spread @ spread)
+        tilt = spread @ displacement / (spread @ spread)
         y = np.zeros((self.rows, 3))
         y[frames.corner_row[end]] = frames.length * tilt
-        y[frames.end_point(end)] = moved.mean(axis=0) + (self.offset - layers.mean()) * tilt
+        y[frames.end_point(end)] = displacement.mean(axis=0) + (self.offset - layers.mean()) * tilt
         y[: frames.coordinates][self.free[: frames.coordinates]] = 0.0
         return y
 
     def corner_force(self, end: int, on_rows: np.ndarray) -> np.ndarray:
-        """Force (3,) [N] that holds the point at a corner, from what is exerted on the rows."""
+        """Return the force (3,) [N] that holds the point at a corner, from the forces on the rows."""
         point = self.frames.end_point(end)
         return np.where(self.free[point], 0.0, on_rows[point])
 
@@ -188,36 +189,36 @@ class BoundChain:
         """Return force and moment (names, segments, 6) [N, N·m] on the sheet about the middle of each
         segment's axis; chains of a pair share them evenly."""
         frames, exerted = self.frames, acting.on_rows
-        place = frames.rest + acting.y[: frames.coordinates]
+        position = frames.rest + acting.y[: frames.coordinates]
         first = self._parts * np.arange(frames.segments // self._parts)
-        middle = 0.5 * (place[first + self._parts // 2] + place[first + (self._parts + 1) // 2])
+        middle = 0.5 * (position[first + self._parts // 2] + position[first + (self._parts + 1) // 2])
         arm = acting.positions[None, :, :] - middle[:, None, :]
         share = np.add.reduceat(self.share, first)
         force = share @ acting.on_masses
         moment = np.einsum("sm,smq->sq", share, np.cross(arm, acting.on_masses[None, :, :]))
         total = np.concatenate([force, moment], axis=1)
-        for end in frames.corners:  # of a free row only another chain's part of the corner is left
+        for end in frames.corners:  # on a free row only another chain's part of the corner acts
             segment, row = end * (len(first) - 1), frames.corner_row[end]
             push = exerted[frames.end_point(end)] if end in frames.shared else self.corner_force(end, exerted)
-            couple = np.cross(place[row], exerted[row])
-            lever = place[frames.end_point(end)] - middle[segment]
+            couple = np.cross(position[row], exerted[row])
+            lever = position[frames.end_point(end)] - middle[segment]
             total[segment] -= np.concatenate([push, np.cross(lever, push) + couple])
         return np.tile(total / len(self.names), (len(self.names), 1, 1))
 
     def _joint_springs(self, drive: Drive) -> tuple[tuple[np.ndarray, np.ndarray], float]:
-        """Stiffness (j,) and rest angles (j, 2) of all chains together, and the energy that their rest angles
-        hold against each other [J]."""
+        """Return stiffness (j,) [N·m/rad] and rest angles (j, 2) of all chains as one, and the energy [J]
+        that is stored because their rest angles differ."""
         frames, stiffness = self.frames, self._stiffness.sum(axis=0)
         curvature = np.array([pieces @ values.at(drive.time) for pieces, values in self._commands])
-        wanted = drive.load_factor * curvature[:, frames.command] * frames.length * frames.share
+        natural = drive.load_factor * curvature[:, frames.command] * frames.length * frames.share
         rest = np.zeros((len(stiffness), 2))
-        mean = (self._stiffness * wanted).sum(axis=0) / stiffness
+        mean = (self._stiffness * natural).sum(axis=0) / stiffness
         rest[:, 1 if self._chains[0].plane == "inplane" else 0] = mean
-        held = 0.5 * float((self._stiffness * wanted**2).sum() - (stiffness * mean**2).sum())
-        return (stiffness, rest), held
+        stored = 0.5 * float((self._stiffness * natural**2).sum() - (stiffness * mean**2).sum())
+        return (stiffness, rest), stored
 
     def _weights(self, y: np.ndarray, by_measure: np.ndarray) -> np.ndarray:
-        """What the energy + σ ds λ·Φ changes with every quantity."""
+        """Return the derivative of energy + σ ds λ·Φ by every constraint and measure."""
         multipliers = y[self.frames.coordinates :].ravel()[: self.frames.constraints]
         return np.concatenate([self._scale * multipliers, by_measure.ravel()])
 
@@ -230,7 +231,7 @@ class BoundChain:
         return out
 
     def _angle_gradient(self, y: np.ndarray) -> np.ndarray:
-        """Derivatives (j, 2, 3 coordinates) of the joints' angles by the rows."""
+        """Return the derivatives (j, 2, 3 coordinates) of the joints' angles by the rows."""
         at = self.frames.at(y)
         _, first, _ = joints.angles(at.measures)
         gradient = self.frames.gradient(at.slopes)[self.frames.constraints :]

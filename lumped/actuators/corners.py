@@ -1,16 +1,15 @@
 """Ends of chains at corners of the sheet, and ties between two chains that share one.
 
-Two chains on neighbouring edges have the corner's point and director in common, as rods bound to a shell
-have: without it the second would pass its end's moment on through one cell of the sheet, whose size the grid
-decides.
-The point and the director's row are those of the first chain, which binds the corner's masses; those of the
-second follow them. Which is first makes no difference to what they exert or to where they are. A base holds
-point and director where it stands, so at a corner it holds the other chain's end too, as a clamp would. Left
-to the sheet: corners that another support or a motion takes.
+Two chains on neighbouring edges have the corner's point and director in common, as rods bound to a shell do:
+otherwise the second would pass its end's moment on through one cell of the sheet, whose size depends on the
+grid. The first chain has the rows of point and director and binds the corner's masses; the second chain's
+point and director follow. The order makes no difference to forces or displacements. A base holds point and
+director at its place, so at a corner it holds the other chain's end too, as a clamp would. Corners that
+another support or a motion holds are not tied.
 
-What two chains both hold must be one equation, or the equations are singular. Scenes refuse what holds a
-chain along itself twice (`scenes.meaning.corners`). Of what is across the sheet the constraints at corners
-that follow, on the flat sheet, from all others and from those at corners before them are left out.
+A constraint that two chains both impose must enter once, or the equations are singular. Scenes with a chain
+held twice along itself are refused (`scenes.meaning.corners`). Across the sheet, a constraint at a corner is
+left out if on the flat sheet it follows from the constraints elsewhere and at earlier corners.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ import numpy as np
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Chain, Scene, holds_director
 
-FOLLOWS = 1e-9  # of a gradient: what rounding leaves where it is a combination of others
+DEPENDENT_BELOW = 1e-9  # of a gradient's norm: the rounding left of a combination of other gradients
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class SharedCorner:
 
 @dataclass(frozen=True)
 class Tie:
-    """Rows (k,) whose displacement is weights (k, s) @ that of other rows (s,)."""
+    """Rows (k,) whose displacement is weights (k, s) @ the displacement of other rows (s,)."""
 
     rows: np.ndarray
     others: np.ndarray
@@ -44,54 +43,55 @@ class Tie:
 
 
 def held_ends(scene: Scene, edge: str) -> tuple[int, ...]:
-    """Ends of a chain's edge, but for its own base's, at which a support on the neighbouring edge or the base
-    of the chain there holds position and director."""
+    """Return the ends of a chain's edge, its base's excepted, at which a support on the neighbouring edge or
+    the base of a chain on that edge holds position and director."""
     moved = {motion.edge for motion in scene.motions().values()}
     still = {s.edge for s in scene.supports if s.motion is None and holds_director(s)}
-    held = {end for end in (0, 1) if _beside(edge, end) in still - moved or based_beside(scene, edge, end)}
+    supports = still - moved
+    held = {e for e in (0, 1) if _neighbour(edge, e) in supports or adjacent_base(scene, edge, e)}
     return tuple(sorted(held.difference(_chains(scene)[edge].base_ends)))
 
 
-def based_beside(scene: Scene, edge: str, end: int) -> str | None:
-    """The edge beside an end of another, if a chain on it has its base at their corner."""
-    beside = _beside(edge, end)
-    chain = _chains(scene).get(beside)
-    return beside if chain is not None and int(edge[1]) in chain.base_ends else None
+def adjacent_base(scene: Scene, edge: str, end: int) -> str | None:
+    """Return the edge that meets another at its end, if a chain on it has its base at their corner."""
+    neighbour = _neighbour(edge, end)
+    chain = _chains(scene).get(neighbour)
+    return neighbour if chain is not None and int(edge[1]) in chain.base_ends else None
 
 
-def _beside(edge: str, end: int) -> str:
-    """The edge that meets another at an end of it."""
+def _neighbour(edge: str, end: int) -> str:
+    """Return the edge that meets another at its end."""
     return f"{'xy'[EDGES[edge].along_axis]}{end}"
 
 
 def _chains(scene: Scene) -> dict[str, Chain]:
-    return {edge: next(iter(here.values())) for edge, here in scene.chains().items()}
+    return {edge: next(iter(chains.values())) for edge, chains in scene.chains().items()}
 
 
 def shared_corners(scene: Scene, lattice: Lattice, taken: np.ndarray) -> list[SharedCorner]:
-    """Corners at which two chains meet that have no base there, and whose masses nothing else has taken, (n,)
-    bool."""
+    """Return the corners at which two chains without a base there meet, unless a support or motion holds the
+    masses; taken: (n,) bool, masses that one holds."""
     chains = _chains(scene)
-    found = []
+    corners = []
     for first, second in combinations(chains, 2):
         ends = int(second[1]), int(first[1])
         free = not taken[lattice.edge_columns(first)[-ends[0]]].any()
         based = ends[0] in chains[first].base_ends or ends[1] in chains[second].base_ends
-        if _beside(first, ends[0]) == second and free and not based:
-            found.append(SharedCorner((first, second), ends))
-    return found
+        if _neighbour(first, ends[0]) == second and free and not based:
+            corners.append(SharedCorner((first, second), ends))
+    return corners
 
 
 def redundant(gradient: np.ndarray, rank: np.ndarray) -> list[int]:
-    """Return which rows of the constraints' gradient (c, n) by the free rows follow from the others; those of
-    rank 0, which come first, do not, rank (c,)."""
-    basis, found = np.linalg.qr(gradient[rank == 0].T)[0], []
+    """Return the numbers of constraints whose gradient (c, n) by the free rows is a combination of gradients
+    before it in order of rank (c,); constraints of rank 0 are independent."""
+    basis, dependent = np.linalg.qr(gradient[rank == 0].T)[0], []
     for number in np.argsort(rank, kind="stable")[np.sum(rank == 0) :].tolist():
-        left = gradient[number] - basis @ (basis.T @ gradient[number])
-        left -= basis @ (basis.T @ left)
-        length = float(np.linalg.norm(left))
-        if length <= FOLLOWS * np.linalg.norm(gradient[number]):
-            found.append(number)
+        remainder = gradient[number] - basis @ (basis.T @ gradient[number])
+        remainder -= basis @ (basis.T @ remainder)
+        length = float(np.linalg.norm(remainder))
+        if length <= DEPENDENT_BELOW * np.linalg.norm(gradient[number]):
+            dependent.append(number)
         else:
-            basis = np.column_stack([basis, left / length])
-    return found
+            basis = np.column_stack([basis, remainder / length])
+    return dependent

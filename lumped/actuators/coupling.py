@@ -1,12 +1,12 @@
-"""All actuators of a scene, bound to a lattice: their rows follow those of the masses in the displacement.
+"""All actuators of a scene, bound to a lattice: in the displacement their rows follow the masses' rows.
 
-A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes refuse what the motion
-would contradict; where two motions share a corner they share its force. Any other mass that a support holds,
-in whichever component, stays with its support; a corner at which a chain has its base is that chain's. Two
-chains on neighbouring edges have the corner in common (`lumped.actuators.corners`). A chain that ends at a
-corner whose director a support or another chain's base holds is held there too, unless the support moves over
-time: with an end that moves so the integrators do not keep the balance of energy. There, and beside an edge
-moved rigidly, the sheet alone holds it. Chains on one edge are one actuator model.
+A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes with supports that
+contradict the motion are refused; two motions that share a corner share its force. Any other mass that a
+support holds, in whichever component, stays with its support; a corner at which a chain has its base belongs
+to the chain. Two chains on neighbouring edges have the corner in common (`lumped.actuators.corners`). A chain
+that ends at a corner whose director a support or another chain's base holds is held there too, unless the
+support moves over time: with an end that moves so the integrators do not keep the balance of energy. There,
+and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one actuator model.
 """
 
 from __future__ import annotations
@@ -17,18 +17,19 @@ import numpy as np
 
 from lumped.actuators.actuator import Acting, Drive, RigidMotion
 from lumped.actuators.chain import BoundChain
-from lumped.actuators.corners import SharedCorner, Tie, based_beside, held_ends, redundant, shared_corners
+from lumped.actuators.corners import SharedCorner, Tie, adjacent_base, held_ends, redundant, shared_corners
 from lumped.coverage import held_columns, reached_parts
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene
 
-NOTHING = np.empty((0, 3))
+NO_ROWS = np.empty((0, 3))
 
 
 class Coupling:
-    """The actuators with the place of each one's rows; all arrays over masses and rows together.
+    """The actuators with the place of each one's rows; arrays of `size` rows contain the masses, then the
+    actuators' rows.
 
-    bodies: those with rows of their own, in the order of these; moved: (masses,) bool, those of edges moved
+    bodies: actuators that have rows, in the order of the rows; moved: (masses,) bool, masses of edges moved
     rigidly; algebraic: (size, 3) bool, components that are multipliers; free: (rows, 3) bool, components of
     the bodies' rows that can move.
     """
@@ -41,15 +42,15 @@ class Coupling:
         for motion in self._motions:
             self.moved[motion.masses] = True
         self.bodies, shared = _chains(scene, lattice, self.moved)
-        by_edge: dict[str, BoundChain | RigidMotion] = {one.edge: one for one in self._motions}
+        by_edge: dict[str, BoundChain | RigidMotion] = {motion.edge: motion for motion in self._motions}
         chains = {body.edge: body for body in self.bodies}
         self.ties = [_tie(corner, *(chains[edge] for edge in corner.edges)) for corner in shared]
-        bases = {edge: next(iter(here.values())).held_as for edge, here in scene.chains().items()}
-        self._held_by = [  # chain and end that another's base holds, and the base
-            (chain, end, bases[beside])
+        bases = {edge: next(iter(on_edge.values())).held_as for edge, on_edge in scene.chains().items()}
+        self._held_by = [  # a chain, the end of it that another chain's base holds, and the base
+            (chain, end, bases[neighbour])
             for chain in self.bodies
             for end in chain.corners
-            if (beside := based_beside(scene, chain.edge, end))
+            if (neighbour := adjacent_base(scene, chain.edge, end))
         ]
         by_edge |= chains
         self._all = [by_edge[edge] for edge in dict.fromkeys(str(a.edge) for a in scene.actuators)]
@@ -65,7 +66,7 @@ class Coupling:
         self.multipliers = int(self.algebraic.sum())
 
     def _free_gradient(self) -> np.ndarray:
-        """What `constraint_gradient` gives at rest, of rows that can move and are not tied to others."""
+        """Return the constraints' gradient at rest by the rows that can move and are not tied to others."""
         gradient = self.constraint_gradient(np.zeros((self.size, 3))) * self.free
         for tie in self.ties:
             rows, others = tie.rows - self.masses, tie.others - self.masses
@@ -74,51 +75,52 @@ class Coupling:
         return gradient.reshape(len(gradient), -1)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Rows that act on each other, as ordered pairs of numbers after the masses."""
-        found = [np.argwhere(body.pairs) + body.place.start for body in self.bodies]
-        rows, columns = np.concatenate([np.empty((0, 2), int), *found]).T
+        """Return the rows that act on each other, as ordered pairs of numbers after the masses."""
+        by_body = [np.argwhere(body.pairs) + body.place.start for body in self.bodies]
+        rows, columns = np.concatenate([np.empty((0, 2), int), *by_body]).T
         return rows, columns
 
     def carried(self) -> np.ndarray:
-        """Forces (size,) [N] on the actuators' rows whose rounding the residual cannot fall below."""
+        """Return the forces (size,) [N] on rows whose rounding the residual cannot fall below."""
         return np.concatenate([np.zeros(self.masses), *(np.full(a.rows, a.carried) for a in self.bodies)])
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
-        """Dead forces (rows, 3) [N] of a uniform acceleration on the actuators' rows."""
+        """Return the dead forces (rows, 3) [N] of a uniform acceleration on the actuators' rows."""
         return np.concatenate([np.empty((0, 3)), *(a.weight(acceleration) for a in self.bodies)])
 
     def axes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Of every edge with chains: the rows of the points where their segments end, (p,), and the points'
-        rest places (p, 3) [m]; of several chains on an edge the mean of their axes."""
+        """Return the rows (p,) of the points where segments end and the points' places at rest (p, 3) [m], by
+        edge with chains; several chains on an edge have the mean of their axes."""
         return {body.edge: (body.place.start + np.arange(len(body.axis)), body.axis) for body in self.bodies}
 
     def corners(self) -> list[tuple[BoundChain, int, np.ndarray]]:
-        """Ends of bodies held at corners: body, end (0 or 1), the corner's masses (layers,)."""
+        """Return the ends of bodies held at corners: body, end (0 or 1), the corner's masses (layers,)."""
         ends = [(body, end) for body in self.bodies for end in body.corners]
         return [(body, end, self._layers[body.edge][-end]) for body, end in ends]
 
-    def follow(self, placed: np.ndarray) -> None:
-        """Put chains' ends and what is bound to them where their corners are put, in `placed` (size, 3)."""
+    def follow(self, u: np.ndarray) -> None:
+        """Set, in a displacement u (size, 3) [m], chains' ends and the masses bound to them by their corners'
+        masses."""
         for chain, end, column in self.corners():
-            placed[chain.place] += chain.place_corner(end, self._positions[column, 2], placed[column])
-            placed[chain.masses] = chain.binding @ placed[chain.place]
+            u[chain.place] += chain.place_corner(end, self._positions[column, 2], u[column])
+            u[chain.masses] = chain.binding @ u[chain.place]
 
     def driven(self, drive: Drive) -> np.ndarray:
-        """Prescribed displacement (size, 3) [m] of the masses of moved edges."""
-        moved = np.zeros((self.size, 3))
+        """Return the prescribed displacement (size, 3) [m] of the masses of moved edges."""
+        u = np.zeros((self.size, 3))
         for motion in self._motions:
-            moved[motion.masses] = motion.driven(drive)
-        return moved
+            u[motion.masses] = motion.driven(drive)
+        return u
 
     def driven_velocity(self, time: float) -> np.ndarray:
-        """The velocity (size, 3) [m/s] of what is prescribed, from a time [s] on."""
+        """Return the prescribed velocity (size, 3) [m/s] of the masses of moved edges, from a time [s] on."""
         velocity = np.zeros((self.size, 3))
         for motion in self._motions:
             velocity[motion.masses] = motion.velocity(time)
         return velocity
 
     def add_force(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
-        """Add the actuators' internal force to `force` (size, 3) [N]; their energy [J]."""
+        """Add the actuators' internal force to `force` (size, 3) [N]; return their energy [J]."""
         energy = 0.0
         for body in self.bodies:
             stored, gradient = body.force(u[body.place], drive)
@@ -163,15 +165,15 @@ class Coupling:
         return np.concatenate(of_multipliers)
 
     def mass_blocks(self) -> np.ndarray:
-        """Mass of every pair of `pairs` [kg]."""
+        """Return the mass of every pair of `pairs` [kg]."""
         return np.concatenate([np.empty(0), *(a.mass[a.pairs] for a in self.bodies)])
 
     def command_work(self, u: np.ndarray, drive: Drive, later: Drive) -> float:
-        """Work [J] of the commands going from one drive to the next at displacement u."""
+        """Return the work [J] of the commands going from one drive to the next at displacement u."""
         return sum(b.force(u[b.place], later)[0] - b.force(u[b.place], drive)[0] for b in self.bodies)
 
     def add_damping_force(self, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
-        """Add the damping force to `force` (size, 3) [N]; the power taken [W]."""
+        """Add the damping force to `force` (size, 3) [N]; return the power taken [W]."""
         power = 0.0
         for body in self.bodies:
             taken, resisting = body.damping_force(u[body.place], v[body.place])
@@ -180,53 +182,53 @@ class Coupling:
         return power
 
     def reactions(self, exerted: np.ndarray) -> dict[str, np.ndarray]:
-        """Force (3,) [N] of every prescribed motion and held base, by its name among a solution's reactions,
-        from what holds masses and rows, (size, 3) [N]."""
-        found: dict[str, np.ndarray] = {}
+        """Return the force (3,) [N] of every prescribed motion and held base, by its name among a solution's
+        reactions; exerted: (size, 3) [N] that holds masses and rows."""
+        forces: dict[str, np.ndarray] = {}
         for actuator, acting in self._acting(np.zeros_like(exerted), exerted):
-            found |= actuator.reactions(acting)
+            forces |= actuator.reactions(acting)
         for body, end, base in self._held_by:
-            found[base] = found[base] + body.corner_force(end, self.on_rows(body, exerted))
-        return found
+            forces[base] = forces[base] + body.corner_force(end, self.on_rows(body, exerted))
+        return forces
 
     def on_rows(self, body: BoundChain, exerted: np.ndarray) -> np.ndarray:
-        """Return what holds a body's rows (rows, 3) [N], with the masses that they bind."""
+        """Return the force (rows, 3) [N] that holds a body's rows and the masses bound to them."""
         bound: np.ndarray = exerted[body.place] + body.binding.T @ exerted[body.masses]
         return bound
 
     def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
-        """Moment (3,) [N·m] about the origin of what holds the actuators, corners of chains among it, from
-        what holds masses and rows, (size, 3) [N]."""
+        """Return the moment (3,) [N·m] about the origin of the forces that hold the actuators, corners of
+        chains included; exerted: (size, 3) [N] that holds masses and rows."""
         total = np.zeros(3)
         for actuator, acting in self._acting(u, exerted):
             total += actuator.held_moment(acting, drive)
         return total
 
     def moment(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
-        """Moment (3,) [N·m] about the origin of forces (size, 3) on the bodies' rows: points take it at
-        their places, directors as they turn."""
+        """Return the moment (3,) [N·m] about the origin of forces (size, 3) [N] on the bodies' points and
+        directors, whose current vectors are the arms."""
         total = np.zeros(3)
         for body in self.bodies:
-            own = slice(body.place.start, body.place.start + len(body.rest))
-            total += np.cross(body.rest + u[own], force[own]).sum(axis=0)
+            rows = slice(body.place.start, body.place.start + len(body.rest))
+            total += np.cross(body.rest + u[rows], force[rows]).sum(axis=0)
         return total
 
     def wrenches(self, u: np.ndarray, exerted: np.ndarray) -> dict[str, np.ndarray]:
-        """Force and moment of each segment on the sheet, (segments, 6) [N, N·m] by actuator, from what holds
-        masses and rows, (size, 3) [N]."""
-        found: dict[str, np.ndarray] = {}
+        """Return force and moment of each segment on the sheet, (segments, 6) [N, N·m] by actuator; exerted:
+        (size, 3) [N] that holds masses and rows."""
+        wrenches: dict[str, np.ndarray] = {}
         for actuator, acting in self._acting(u, exerted):
-            found.update(zip(actuator.names, actuator.wrenches(acting), strict=True))
-        return found
+            wrenches.update(zip(actuator.names, actuator.wrenches(acting), strict=True))
+        return wrenches
 
     def _acting(
         self, u: np.ndarray, exerted: np.ndarray
     ) -> Iterator[tuple[BoundChain | RigidMotion, Acting]]:
         for actuator in self._all:
-            masses, own = actuator.masses, (NOTHING, NOTHING)
+            masses, rows = actuator.masses, (NO_ROWS, NO_ROWS)
             if isinstance(actuator, BoundChain):
-                own = self.on_rows(actuator, exerted), u[actuator.place]
-            yield actuator, Acting(self._positions[masses] + u[masses], exerted[masses], *own)
+                rows = self.on_rows(actuator, exerted), u[actuator.place]
+            yield actuator, Acting(self._positions[masses] + u[masses], exerted[masses], *rows)
 
 
 def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:
@@ -242,32 +244,31 @@ def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Bou
     for support in scene.supports:
         taken[held_columns(lattice, support, reached_parts(scene))] = True
     shared = shared_corners(scene, lattice, taken)
-    found: list[BoundChain] = []
+    bodies: list[BoundChain] = []
     start = lattice.mass_count
-    for edge, here in scene.chains().items():
+    for edge, chains in scene.chains().items():
         columns, held = lattice.edge_columns(edge), held_ends(scene, edge)
-        others = taken.copy()
-        others[columns[[-end for end in held]]] = True
+        excluded = taken.copy()
+        excluded[columns[[-end for end in held]]] = True
         masses = columns.ravel()
-        masses = masses[~others[masses]]
+        masses = masses[~excluded[masses]]
         taken[masses] = True
         scale = scene.material.young * scene.sheet.thickness
-        own = {
+        has_director = {
             end: edge == corner.edges[0]
             for corner in shared
             for other, end in zip(corner.edges, corner.ends, strict=True)
             if other == edge
         }
-        chain = BoundChain(
-            list(here.values()), tuple(here), scene.sheet, lattice, masses, scale, held, own, start
-        )
-        found.append(chain)
-        start += chain.rows
-    return found, shared
+        names, data = tuple(chains), list(chains.values())
+        body = BoundChain(data, names, scene.sheet, lattice, masses, scale, held, has_director, start)
+        bodies.append(body)
+        start += body.rows
+    return bodies, shared
 
 
 def _tie(corner: SharedCorner, one: BoundChain, other: BoundChain) -> Tie:
-    """Point and director of the second chain from those of the first; axes may lie at different heights."""
+    """Return the tie of the second chain's point and director to the first's; axes may differ in height."""
     ends = ((c.place.start, c.frames, end) for c, end in zip((one, other), corner.ends, strict=True))
     others, rows = (first + np.array([on.end_point(end), on.corner_row[end]]) for first, on, end in ends)
     above = (other.offset - one.offset) / one.frames.length

@@ -17,7 +17,7 @@ multipliers, and a joint of half length (but for "inplane") between n_c and the 
 
     corner      n_c·b = 0;  "inplane": n_c·b = n_c·t = 0;   measures n_c·t, 0, n_c·n
 
-so that the segment may turn about n_c. A corner shared with another chain has the same joint; its n_c is free
+so that the segment may turn about n_c. A corner shared with another chain has this joint too; its n_c is free
 but of unit length, and for one of the two chains a multiple of the other's (`lumped.actuators.corners`).
 Source: Betsch and Steinmann (2001), García de Jalón's natural coordinates.
 """
@@ -38,8 +38,9 @@ T, N, B = range(3)
 
 
 class Measured(NamedTuple):
-    """At a displacement: vectors (v, 3), t, n, b of the segments and of the ground, then every n_c; what the
-    constraints leave (c,); the joints' measures (j, 3); slopes (k, v, 3) of the quantities by the vectors."""
+    """Quantities at a displacement. vectors: (v, 3) t, n, b of the segments and of the ground, then every
+    n_c; residuals: (c,) of the constraints; measures: (j, 3) of the joints; slopes: (k, v, 3) derivatives of
+    the quantities by the vectors."""
 
     vectors: np.ndarray
     residuals: np.ndarray
@@ -57,7 +58,7 @@ class Frames:
     base_joint: the joint or end (0 to segments) at which a base is a frame that joints join, None without
     one. joints: frame before, frame after and length in ds of every joint in order, the ground's frame being
     `segments`. quantities: the constraints (first `constraints` of them), then three measures a joint; rank:
-    (constraints,) 0 of those that always are independent, of others in which turn they are looked at.
+    (constraints,) 0 of a constraint that is always independent, else the order in which `redundant` tests it.
     """
 
     def __init__(
@@ -87,15 +88,15 @@ class Frames:
         self.joints: list[tuple[int, int, float]] = []
         for point in range(count + 1):
             based = point == self.base_joint
-            beside = [point - 1] * (point > 0) + [ground] * based + [point] * (point < count)
-            self.joints += [(*pair, 0.5 if based else 1.0) for pair in pairwise(beside)]
+            joined = [point - 1] * (point > 0) + [ground] * based + [point] * (point < count)
+            self.joints += [(*pair, 0.5 if based else 1.0) for pair in pairwise(joined)]
         constraints = list(self._constraints(chain.plane))
         self.rank = np.array([rank for rank, _, _ in constraints])
         self.constraints = len(constraints)
         hinged = () if chain.plane == "inplane" else self.corners
-        every = [*(products for _, _, products in constraints), *self._measures(chain.plane, hinged)]
-        terms = [(number, *product) for number, products in enumerate(every) for product in products]
-        self._target = np.zeros(len(every))
+        quantities = [*(products for _, _, products in constraints), *self._measures(chain.plane, hinged)]
+        terms = [(number, *product) for number, products in enumerate(quantities) for product in products]
+        self._target = np.zeros(len(quantities))
         self._target[: self.constraints] = [target for _, target, _ in constraints]
         self._quantity, self._first, self._second = np.array([term[:3] for term in terms]).T
         self._weight = np.array([term[3] for term in terms])
@@ -108,8 +109,8 @@ class Frames:
         self.command = np.array([*range(len(self.joints)), *ends], dtype=int)  # whose curvature a joint has
 
     def _constraints(self, plane: str) -> Iterator[tuple[int, float, list[Product]]]:
-        """Rank, target and products of the constraints: rigid segments, joints of the plane, held and shared
-        corners."""
+        """Yield rank, target and products of the constraints: rigid segments, joints of the plane, held and
+        shared corners."""
         for i in range(self.segments):
             for first, second in combinations_with_replacement((T, N, B), 2):
                 same = 0.5 * (first == second)
@@ -127,8 +128,7 @@ class Frames:
                 yield rank * (end in self.shared), 0.0, [(corner, self._vector(segment, kind), 1.0)]
 
     def _measures(self, plane: str, hinged: tuple[int, ...]) -> Iterator[list[Product]]:
-        """Products of three measures of every joint, and of those between corners and the segments hinged to
-        them."""
+        """Yield the products of three measures of every joint, also between corners and segments."""
         for before, after, _ in self.joints:
             for first in (N, B, T):
                 weight = float(first == T or first in _MEASURED[plane])
@@ -138,8 +138,8 @@ class Frames:
                 yield [(self._corner(end), self._vector(self.end_segment(end), kind), weight)]
 
     def at(self, y: np.ndarray) -> Measured:
-        """Return the quantities at coordinate displacements y: bilinear in the vectors, half of what their
-        slopes make of these."""
+        """Return the quantities at coordinate displacements y; a quantity is bilinear in the vectors, hence
+        half the product of its slopes and the vectors."""
         v = self._constant + self._map @ y[: self.coordinates]
         slopes = np.zeros((len(self._target), len(v), 3))
         np.add.at(slopes, (self._quantity, self._first), self._weight[:, None] * v[self._second])
@@ -168,11 +168,11 @@ class Frames:
         return form
 
     def end_point(self, end: int) -> int:
-        """The point at an end (0 or 1)."""
+        """Return the number of the point at an end (0 or 1)."""
         return end * self.segments
 
     def end_segment(self, end: int) -> int:
-        """The segment at an end (0 or 1)."""
+        """Return the number of the segment at an end (0 or 1)."""
         return end * (self.segments - 1)
 
     def _corner(self, end: int) -> int:
@@ -182,7 +182,7 @@ class Frames:
         return 3 * self.segments + kind if frame == self.segments else kind * self.segments + frame
 
     def _linear_map(self) -> np.ndarray:
-        """(3 segments + 3 + corners, coordinates): frames from rows, a unit a row of length ds."""
+        """Return the map (3 segments + 3 + corners, coordinates) from rows to the frames' vectors."""
         count = self.segments
         out = np.zeros((3 * count + 3 + len(self.corners), self.coordinates))
         i = np.arange(count)

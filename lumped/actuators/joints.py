@@ -1,12 +1,12 @@
 """Joint angles between neighbouring segments from scalar products of their frames, and the joints' energy.
 
-With (t, n, b) the frame of a segment and t' the tangent of the next, s = (n·t', b·t'), c = t·t' and
-S = |s|, the joint's rotation vector has the components
+A segment has the frame (t, n, b), the next one the tangent t'. For s = (n·t', b·t'), c = t·t' and S = |s|,
+the joint's rotation vector has the components
 
     φ_i = s_i g,    g = θ/S,   θ = atan2(S, c),
 
-φ_1 in the plane of t and n, φ_2 in that of t and b. A joint stores ½ k |φ − φ0|² [J], k [N·m/rad].
-With w = S² and ρ² = w + c²:  ∂g/∂c = −1/ρ²,  ∂g/∂w = (c/ρ² − g)/2w, and so on; as w → 0 by series.
+φ_1 in the plane of t and n, φ_2 in the plane of t and b. A joint stores ½ k |φ − φ0|² [J], k [N·m/rad].
+Derivatives follow from ∂g/∂c = −1/ρ² and ∂g/∂w = (c/ρ² − g)/2w, w = S², ρ² = w + c²; as w → 0 by series.
 Arrays over the joints: measures (j, 3) = (s_1, s_2, c); angles (j, 2).
 """
 
@@ -18,7 +18,7 @@ SERIES = 1e-6  # w below which the series is used; it leaves out terms of order 
 
 
 def angles(measures: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """φ (j, 2), its derivatives (j, 2, 3) and second derivatives (j, 2, 3, 3) by the measures."""
+    """Return φ (j, 2), its derivatives (j, 2, 3) and second derivatives (j, 2, 3, 3) by the measures."""
     s, c = measures[:, :2], measures[:, 2]
     w = (s**2).sum(axis=1)
     square = w + c**2
@@ -46,7 +46,7 @@ def angles(measures: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def derivatives(
     measures: np.ndarray, stiffness: np.ndarray, rest: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Energy of every joint (j,) [J], its gradient (j, 3) and Hessian (j, 3, 3) by the measures."""
+    """Return every joint's energy (j,) [J], its gradient (j, 3) and Hessian (j, 3, 3) by the measures."""
     phi, first, second = angles(measures)
     torque = stiffness[:, None] * (phi - rest)
     gradient = np.einsum("ji,jia->ja", torque, first)
@@ -58,7 +58,7 @@ def derivatives(
 def average_gradient(
     start: np.ndarray, end: np.ndarray, stiffness: np.ndarray, rest: np.ndarray
 ) -> np.ndarray:
-    """Gonzalez' discrete gradient (j, 3): times (end − start) it is the difference of the energies."""
+    """Return Gonzalez' discrete gradient (j, 3); times (end − start) it is the difference of the energies."""
     change = end - start
     _, middle, _ = derivatives(0.5 * (start + end), stiffness, rest)
     size = (change**2).sum(axis=1)

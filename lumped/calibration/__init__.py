@@ -1,4 +1,5 @@
-"""Which k belongs to E: methods that need the sheet and its material alone, each in a file of its own."""
+"""Calibration of spring constants k from E: methods that need the sheet and its material alone, a file
+each."""
 
 from lumped.calibration.calibration import Calibration
 from lumped.calibration.methods import MAKERS, default, given

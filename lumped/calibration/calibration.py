@@ -1,4 +1,4 @@
-"""What a calibration returns: springs for a grid, and which moduli they meet."""
+"""The result of a calibration: springs for a grid, and a report of the moduli that they meet."""
 
 from __future__ import annotations
 
@@ -21,14 +21,29 @@ from sheetbench.scenes.objects.springs import LATTICE, Distribution
 
 @dataclass(frozen=True, repr=False)
 class Calibration(Answer):
-    """Springs of a lattice: method, grid (nx, ny, layers), spring constants [N/m] and layer distance [m].
+    """Springs of a lattice, with a report of the moduli that they meet.
 
-    moduli: one row per plate modulus with what the sheet asks and what the lattice's interior gives
-    (A, S [N/m], D [N·m]; the target of S is MacNeal's S* of the grid), of unequal cells that of the one that
-    misses it most; remarks: what the method could not meet; masses: how the sheet's mass is shared out
-    (`lumped.masses`) when it vibrates or moves; grading: of the grid's lines (`lumped.grid_lines`); cells:
-    their sections, where they differ or have fibres; of_material: whether those are of the material alone,
-    without what a scene has beside.
+    Parameters
+    ----------
+    method : str
+        Name of the calibration method.
+    grid : tuple of int
+        Masses along x, along y and through the thickness.
+    springs : SpringSet
+        Spring constants [N/m] and layer distance [m].
+    moduli : tuple of dict
+        A row per plate modulus, A and S [N/m], D [N·m]: the sheet's target, for S MacNeal's S* of the grid,
+        and the value of the lattice's interior, for unequal cells of the cell with the largest miss.
+    remarks : tuple of str, optional
+        Notes on targets that the method did not meet.
+    masses : {"tributary", "gregory"}, default "tributary"
+        Distribution of the sheet's mass in vibration and motion (`lumped.masses`).
+    grading : float or Grading, default 0
+        Grading of the grid's lines (`lumped.grid_lines`).
+    cells : CellSection, optional
+        Sections of cells that differ or have fibres.
+    of_material : bool, default False
+        Whether `cells` follow from the material alone, without patches, layers and cutouts of a scene.
     """
 
     file_name = "calibration"
@@ -45,12 +60,13 @@ class Calibration(Answer):
 
     @property
     def present(self) -> np.ndarray | None:
-        """The cells where there is a sheet, (rows, columns); None where it is in all."""
+        """Mask of the cells that the sheet covers, (rows, columns), or None if it covers all."""
         return None if self.per_area is None else self.per_area > 0.0
 
     @property
     def per_area(self) -> np.ndarray | None:
-        """The cells' mass per area [kg/m²] where some are not there and have none, (rows, columns)."""
+        """The cells' mass per area [kg/m²], (rows, columns), 0 of absent cells, or None if all are
+        present."""
         per_area = None if self.cells is None else self.cells.per_area
         return None if per_area is None or (per_area > 0.0).all() else per_area
 
@@ -67,7 +83,7 @@ class Calibration(Answer):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """What an answer says of its lattice: grid, method and grading."""
+        """Settings of the lattice in an answer: grid, method and grading."""
         return {"grid": list(self.grid), "calibration": self.method, **as_settings(self.grading)}
 
     @cached_property
@@ -76,11 +92,12 @@ class Calibration(Answer):
         return Springs.read(self.springs)
 
     def with_constant(self, name: str, value: float) -> Calibration:
-        """The same with one spring constant changed, by its name (`lumped.spring_constants`)."""
+        """Return the calibration with one spring constant changed, by its name
+        (`lumped.spring_constants`)."""
         return replace(self, springs=self.constants.changed(name, value).table())
 
     def document(self) -> dict[str, Any]:
-        """The JSON document of `sheetbench calibrate`; strain springs only where there are any."""
+        """Return the JSON document of `sheetbench calibrate`, with strain springs if there are any."""
         springs = self.springs.model_dump(mode="json", exclude_none=True, exclude=LATTICE)
         distance = springs.pop("layer_distance")
         always = ("axial", "diagonal", "vertical", "cross", "cross_diagonal", "area", "mid_area")
@@ -96,14 +113,14 @@ class Calibration(Answer):
         }
 
     def heading(self) -> tuple[str, str, str]:
-        """Method, grid and grading."""
+        """Return method, grid and grading."""
         nx, ny, layers = self.grid
         return f"{self.method} calibration", f"of {nx} × {ny} × {layers} masses{remark(self.grading)}", ""
 
     def tables(self) -> tuple[Table, ...]:
-        """The springs, and the moduli that they meet."""
-        found = self.document()
-        return tables.springs(found), tables.moduli(found)
+        """Return the tables of the springs and of the moduli that they meet."""
+        document = self.document()
+        return tables.springs(document), tables.moduli(document)
 
     def notes(self) -> tuple[str, ...]:
         return self.remarks

@@ -1,8 +1,8 @@
-"""The cells of a grid, all at once: their sides and sections, or one where all are alike.
+"""The cells of a grid as arrays: their sides and sections, or one cell if all are alike.
 
-Springs of cells that differ, in size or by a table, are each as if all were like it, with one layer distance:
-the largest that any cell asks for. What a cell that asks for less is then missing in its membrane, its layers
-being softer, is the mid-surface's (`lumped.calibration.closed_form`)."""
+The springs of a cell among unequal cells are the springs of a grid of equal cells like it, but with one layer
+distance for all: the largest that any cell needs. The layers of a cell that needs less are then softer, and
+the mid-surface carries the rest of its membrane stiffness (`lumped.calibration.closed_form`)."""
 
 from __future__ import annotations
 
@@ -22,9 +22,10 @@ from sheetbench.scenes.objects.grid import Grid
 
 
 @dataclass(frozen=True, eq=False)
-class EachCell:
-    """sides (rows, columns, 2) [m] and section (rows, columns, …) of the cells, of one where all are alike;
-    there: which there are, (rows, columns); cells: the sections as given, where they differ."""
+class GridCells:
+    """The cells of a grid, or one cell if all are alike. sides: (rows, columns, 2) [m]; section: (rows,
+    columns, …); covered: (rows, columns) bool, cells that the sheet covers; cells: sections of unequal
+    cells, as given."""
 
     sheet: Sheet
     material: Material
@@ -34,36 +35,37 @@ class EachCell:
     cells: CellSection | None
     sides: np.ndarray
     section: CellSection
-    there: np.ndarray
+    covered: np.ndarray
 
     @cached_property
     def present(self) -> tuple[np.ndarray, CellSection]:
-        """Sides and section of the cells that there are, (m, 2) and (m, …)."""
-        return self.sides[self.there], self.section.each(lambda part: part[self.there])
+        """Sides (m, 2) [m] and section (m, …) of the covered cells."""
+        return self.sides[self.covered], self.section.each(lambda part: part[self.covered])
 
     @cached_property
     def target(self) -> moduli.Moduli:
-        """Moduli of the cells that there are (m, …), with MacNeal's S* as their shear stiffness."""
+        """Moduli of the covered cells (m, …), with MacNeal's S* as their shear stiffness."""
         sides, section = self.present
         return moduli.of_section(section, sides)
 
-    def placed(self, values: np.ndarray) -> np.ndarray:
-        """Values (…, m) of the cells that there are among all of them, (…, rows, columns), 0 elsewhere."""
-        found = np.zeros((*values.shape[:-1], *self.there.shape))
-        found[..., self.there] = values
-        return found
+    def on_grid(self, values: np.ndarray) -> np.ndarray:
+        """Return values (…, m) of the covered cells as values of all cells, (…, rows, columns), 0
+        elsewhere."""
+        array = np.zeros((*values.shape[:-1], *self.covered.shape))
+        array[..., self.covered] = values
+        return array
 
     def share(self) -> np.ndarray:
-        """The sheet's share of each cell, (rows, columns), 0 where there is none."""
-        share = self.there if self.cells is None or self.cells.share is None else self.cells.share
+        """Return the sheet's share of each cell, (rows, columns), 0 of absent cells."""
+        share = self.covered if self.cells is None or self.cells.share is None else self.cells.share
         return np.asarray(share, dtype=float)
 
 
 def each_cell(
     sheet: Sheet, material: Material, grid: Grid, grading: Graded = 0.0, cells: CellSection | None = None
-) -> EachCell:
-    """Return the cells. cells: the sections of all, where they differ. Raises BadInput for a grading outside
-    0 to 1."""
+) -> GridCells:
+    """Return the cells of a grid. cells: sections of unequal cells. Raises BadInput for a grading outside 0
+    to 1."""
     lines, section = grid_lines(sheet, grid, grading), cells
     even = not grading and cells is None
     shape = (1, 1) if even else (grid[1] - 1, grid[0] - 1)
@@ -76,13 +78,29 @@ def each_cell(
     sides = np.stack(np.meshgrid(*widths), axis=-1)
     if cells is not None and cells.growth is not None:
         sides = sides * cells.growth
-    there = section.bending[..., 0, 0] > 0.0
-    return EachCell(sheet, material, grid, grading, lines, cells, sides, section, there)
+    covered = section.bending[..., 0, 0] > 0.0
+    return GridCells(sheet, material, grid, grading, lines, cells, sides, section, covered)
 
 
 def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: CellSection) -> Calibration:
-    """Return springs, alike in all cells, on a sheet with an outline or cutouts: a share for each cell.
-    cells: the sections of all, which differ by a factor alone."""
+    """Return springs of equal cells, scaled to the cells of a sheet with an outline or cutouts.
+
+    Parameters
+    ----------
+    found : Calibration
+        Springs of a whole rectangle, alike in all cells.
+    sheet : Sheet
+        Length, width and thickness.
+    material : Material
+        Material of the sheet.
+    cells : CellSection
+        Sections of the cells, (rows, columns, …), which differ by a factor alone.
+
+    Returns
+    -------
+    Calibration
+        Spring constants cell by cell, times the factor of each cell's bending stiffness.
+    """
     whole = CellSection.of(Constants.of(sheet, material)).bending[0, 0]
     springs = Springs.read(found.springs).scaled(cells.bending[..., 0, 0] / whole)
     return replace(found, springs=springs.table(), cells=cells)

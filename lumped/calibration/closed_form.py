@@ -6,48 +6,48 @@ Square cells of side l, two layers at distance lz (docs/theory.md, section 3; S*
     p = S* l²/(3 lz²),  kdT = p (l² + lz²)/l²,  kddT = p (2 l² + lz²)/(4 l²),
     m = ν A − 2 (kd + kA) − (p − δ),      kz = 8 D/lz² (free: it sets only δ and the stiffest frequency).
 
-Here for cells of sides lx, ly (r = lx/ly) and L layers. The cross-layer links between two layers have the in-
-plane form G11 = S*x lx²/(s lz²), G22 = S*y ly²/(s lz²), G12 = G66 = P whatever their split, s the shear gaps
-of `lumped.moduli`, and a share d of it at most goes to the furthest diagonals, d = ⅓ by default. With σ = Σ
-z_k²/lz² and σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
+The module generalises them to cells of sides lx, ly (r = lx/ly) and L layers. The cross-layer links between
+two layers have the in-plane form G11 = S*x lx²/(s lz²), G22 = S*y ly²/(s lz²), G12 = G66 = P for any split, s
+the shear gaps of `lumped.moduli`; a share d of it at most goes to the furthest diagonals, d = ⅓ by default.
+For σ = Σ z_k²/lz² and σ' = Σ z_g²/lz² of layers and gaps, a layer's form is
 
-    C = (D − σ' lz² (G − δ))/(σ lz²),
+    C = (D − σ' lz² (G − δ))/(σ lz²).
 
-of which diagonals take the share f = min(1, (C11 − C12)/2C66(r² − 1)), of an isotropic one 1/(r² − 1), of C66
-(r ≥ 1; likewise with C22 for r < 1; more would ask for negative links along the cell, see
-`lumped.springs.laws`), shear springs the rest, area springs C12 − f C66, axial links
-what is left of C11 and C22. What the sheet's A has beyond L C + (L − 1)(G − δ) goes to the mid-surface: m to
-A12, the rest to strain springs, with lz the least for which none is negative. On square cells all of those
-vanish if P is G11/3. A cell of a graded grid has its layers as far apart as its neighbours: lz is then given,
-and larger.
+Diagonals carry the share f = min(1, (C11 − C12)/2C66(r² − 1)) of C66, 1/(r² − 1) if C is isotropic (r ≥ 1;
+with C22 for r < 1; more would need negative links along the cell, see `lumped.springs.laws`), shear springs
+the rest, area springs C12 − f C66, axial links the rest of C11 and C22. The difference of the sheet's A and
+L C + (L − 1)(G − δ) goes to the mid-surface: m to A12, the rest to strain springs, with lz the least for
+which none is negative. On square cells the strain springs vanish if P is G11/3. All cells of a graded grid
+have one layer distance: lz is then given, and larger than most cells need.
 
-Where S* couples shear along x with that along y, an upright face over one diagonal of a cell has S*xy, and
+If S* couples shear along x with shear along y, an upright face over one diagonal of a cell has S*xy, and
 |S*xy| r of S*x, |S*xy|/r of S*y, each at most COUPLED of them; the links have the rest.
 
-Of a sheet with B layers differ, C + z_k C' with C' = B/Σ z_k²: the lowest and the highest have the springs of
-their own forms, links a third of E h as at an angle to fibres, those between grow `upward`. That needs layers
-close enough for the softest to resist any strain; so S* is the upright faces' alone, those over the cells'
-diagonals having the share d of it, and lz is the least that A and D allow.
+The layers of a sheet with B differ, C + z_k C' with C' = B/Σ z_k²: the lowest and the highest have the
+springs of C + z_k C', links a third of E h as at an angle to fibres, and layers between grow `upward`. The
+layers must be close enough for the softest to resist any strain; so upright faces alone carry S*, a share d
+of it over the cells' diagonals, and lz is the least that A and D allow.
 
-What lz leaves free is the cost of a strain that varies across a cell. A cell bent in its plane, ε_x = χ y,
-has the links along x on its two sides stretched and nothing else: with E_x of A11 in those it stores ½ E_x (χ
-ly/2)² per area, where the sheet, free to contract, stores ½ (A11 − A12²/A22) χ² ly²/12. So links along the
-sides should carry E_x = (A11 − A12²/A22)/3, a third of an isotropic sheet's E h, and what belongs to the
+The choice of lz affects the energy of a strain that varies across a cell. A cell bent in its plane, ε_x = χ
+y, has the links along x on its two sides stretched and nothing else: with E_x of A11 in the links it stores ½
+E_x (χ ly/2)² per area, whereas the sheet, free to contract, stores ½ (A11 − A12²/A22) χ² ly²/12. So links
+along the sides should carry E_x = (A11 − A12²/A22)/3, a third of an isotropic sheet's E h, and springs of the
 whole cell the rest. At the least lz they carry up to three times as much, so that a coarse lattice is too
-stiff in its plane, and layers at bent edges and in soft sheets too wide. Further apart the layers bend and
-shear as before with less in each: the sides carry a third (`gradients`) from
+stiff in its plane, and layers at bent edges and in soft sheets too wide. At a larger distance softer layers
+give D and S as well: the sides carry a third (`gradients`) from
 
     lz² = [L (C11 − C12 + (1 − r²) f C66) + (L − 1)(G11 − P r²)] lz²/E_x
 
-on, and its like along y; the mid-surface has the rest. A long cell (l ≫ h) bent by θ is too soft by
+on, and by the formula for y; the mid-surface has the rest. A long cell (l ≫ h) bent by θ is too soft by
 
     θ²/12 − w θ²/8 + (1 − w)² θ²/(k + 40 w/3),    w = S* lz²/8D,    k = kz lz²/D,
 
-a chord for an arc, the diagonals that shorten as it bends, and the columns that shorten (docs/theory.md, 3);
-k = 8 costs more than the chord, so these sheets, which may bend far, have columns FIRMER: k = 32.
+by the chord in place of an arc, the diagonals that shorten as it bends, and the columns that shorten
+(docs/theory.md, 3). For k = 8 the last part exceeds the chord's, so sheets with `gradients`, which may bend
+far, have stiffer columns: k = 8 COLUMN_FACTOR.
 
-The diagonals' share d is free too. Against a wave of wave number q at the angle θ to the grid the stiffness
-of square cells is too small by (q l)² sin² 2θ/48 times
+The diagonals' share d is free too. For a wave of wave number q at the angle θ to the grid the stiffness of
+square cells is too small by (q l)² sin² 2θ/48 times
 
     5 + 3ν − (21 d − 9 d²)/(1 + t) − 12 d t/(1 + t),    1 + t = 12 D/(S* l²),
 
@@ -60,34 +60,34 @@ from typing import Any
 
 import numpy as np
 
-from lumped.calibration.cell_by_cell import EachCell
+from lumped.calibration.cell_by_cell import GridCells
 from lumped.moduli import Moduli, second_moment, shear_gaps
 from lumped.spring_constants import UPWARD, Springs, by_direction
 
-FIRMER = 4.0  # columns of a lattice with `gradients`, at no cost to the explicit step of cells of 5 h or more
-SOFTEST = 1e-6  # eigenvalue of a layer's form, of the mean layer's stiffness along x
-COUPLED = 0.9  # of the shear stiffness along a side, at most in faces over diagonals
+COLUMN_FACTOR = 4.0  # with `gradients`; the explicit step of cells of 5 h or more does not suffer
+SOFTEST = 1e-6  # least eigenvalue of a layer's form, relative to the mean layer's stiffness along x
+COUPLED = 0.9  # largest share of the shear stiffness along a side in faces over diagonals
 COUPLED_STRAINS = ("coupling_xy", 0, 1), ("coupling_x", 0, 2), ("coupling_y", 1, 2)
 Split = tuple[np.ndarray, np.ndarray, np.ndarray]
-PAIRS = ("axial", "cross", "stretch", "mid_stretch", "face_shear")  # of links and strains along x and y
+PAIRS = ("axial", "cross", "stretch", "mid_stretch", "face_shear")  # constants with values along x and y
 
 
 class NoClosedForm(Exception):
-    """Of a cell of these sides [m]."""
+    """A cell, of the sides [m] in `args`, has no nonnegative springs in closed form."""
 
 
 def springs_of_cells(
-    each: EachCell, layer_distance: float | None = None, anyhow: bool = False, **special: bool
+    grid_cells: GridCells, layer_distance: float | None = None, anyhow: bool = False, **special: bool
 ) -> Springs:
-    """Return the springs of all cells, in layers as far apart as the cell asks that asks for most. Raise
-    NoClosedForm for a cell that has none, unless `anyhow`: some springs are then negative."""
-    (sides, _), target, layers = each.present, each.target, each.grid[2]
-    found, distance, has_one = closed_form(target, sides, layers, layer_distance, **special)
-    if layer_distance is None and len(sides) > 1 and has_one.all():
-        found, distance, has_one = closed_form(target, sides, layers, float(distance.max()), **special)
-    if not (anyhow or has_one.all()):
-        raise NoClosedForm(*sides[np.argmin(has_one)])
-    of = {name: each.placed(values) for name, values in found.items()}
+    """Return the springs of all cells, at the largest layer distance that a cell needs. Raises NoClosedForm
+    for a cell without a closed form, unless `anyhow`: some springs are then negative."""
+    (sides, _), target, layers = grid_cells.present, grid_cells.target, grid_cells.grid[2]
+    constants, distance, exists = closed_form(target, sides, layers, layer_distance, **special)
+    if layer_distance is None and len(sides) > 1 and exists.all():
+        constants, distance, exists = closed_form(target, sides, layers, float(distance.max()), **special)
+    if not (anyhow or exists.all()):
+        raise NoClosedForm(*sides[np.argmin(exists)])
+    of = {name: grid_cells.on_grid(values) for name, values in constants.items()}
     return Springs.made(
         float(distance.max()),
         **{name: by_direction(*v) if name in PAIRS and not anyhow else v for name, v in of.items()},
@@ -102,30 +102,29 @@ def closed_form(
     gradients: bool = False,
     waves: bool = False,
 ) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
-    """Return springs that have the requested moduli (m, …), of cells of these sides (m, 2) [m]: constants
-    [N/m] by name, (m,), or (2, m) of those along x and y, the distances of the layers (m,) [m], and whether a
-    cell has them, (m,). None has where a link would be negative (many layers on coarse grids: there the
-    cross-layer links alone bend too stiffly), and where a layer distance [m] that is given is less than the
-    cell needs. gradients: whether layers are so far apart that strains in the plane that vary across a cell
-    cost what they cost the sheet; waves: whether oblique waves of bending are right in l², of oblong cells as
-    if they were squares of the same area."""
+    """Return the springs of cells with sides (m, 2) [m] for target moduli (m, …): constants [N/m] by name,
+    (m,), or (2, m) along x and y, the layer distances (m,) [m], and whether each cell has a closed form,
+    (m,). A cell has none if a link would be negative (many layers on coarse grids: there the cross-layer
+    links alone bend too stiffly), or if a given layer distance [m] is less than the cell needs. gradients:
+    whether the layer distance gives in-plane strains that vary across a cell the sheet's energy; waves:
+    whether oblique waves of bending are right in l², in oblong cells as in squares of their area."""
     lx, ly = sides.T
     sigma, sigma_gap = second_moment(layers), second_moment(layers - 1)
     squares, membrane, bending = sides**2, target.membrane, target.bending
     ratios = squares / squares[:, ::-1]
     most = COUPLED * (target.shear / np.sqrt(ratios)).min(axis=1)
     coupling = np.clip(target.coupling, -most, most)
-    rest_of_shear = target.shear - np.abs(coupling)[:, None] * np.sqrt(ratios)
-    gap = rest_of_shear * squares / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
-    unlike_layers = bool(target.mixed.any())
-    coupled = target.oblique | unlike_layers
-    upright = (FIRMER if gradients else 1.0) * vertical(target, sides, 1.0)  # kz lz² [N·m]
+    uncoupled_shear = target.shear - np.abs(coupling)[:, None] * np.sqrt(ratios)
+    gap = uncoupled_shear * squares / shear_gaps(layers)  # G11 lz², G22 lz² [N·m]
+    unequal_layers = bool(target.mixed.any())
+    coupled = target.oblique | unequal_layers
+    upright = (COLUMN_FACTOR if gradients else 1.0) * vertical(target, sides, 1.0)  # kz lz² [N·m]
     bracket = 5.0 + 3.0 * bending[:, 0, 1] / bending[:, 0, 0]
     share = diagonals_for_waves(target, lx * ly, bracket) if waves else 1.0 / 3.0
     least = np.minimum(bending[:, 0, 0], bending[:, 1, 1])
-    share = share * np.minimum(1.0, 4.0 * bending[:, 2, 2] / least)  # of sheets that are soft in shear less
+    share = share * np.minimum(1.0, 4.0 * bending[:, 2, 2] / least)  # less in sheets that are soft in shear
     faces, over = np.zeros_like(gap), np.zeros_like(lx)
-    if unlike_layers:
+    if unequal_layers:
         over = 0.5 * share * (gap / squares**2).min(axis=1) * squares.sum(axis=1)
         faces = gap / squares - 2.0 * over[:, None] * squares / squares.sum(axis=1, keepdims=True)
         gap = np.zeros_like(gap)
@@ -135,42 +134,43 @@ def closed_form(
     gap_form[:, 0, 1] = gap_form[:, 1, 0] = gap_form[:, 2, 2] = p
     along = gap - p[:, None] * ratios
 
-    unlike = _unlike(bending)
+    anisotropic = _anisotropic(bending)
 
-    given = layer_distance is not None
+    distance_given = layer_distance is not None
     lz2 = np.full(len(p), layer_distance**2 if layer_distance is not None else 0.0)
-    open_ = np.ones(len(p), dtype=bool)
+    iterating = np.ones(len(p), dtype=bool)
     for _ in range(50):  # δ is small and depends little on lz: a fixed point
         relaxed = gap_form - _relaxation(gap, along, p, sides, lz2, upright)
         layer = (bending - sigma_gap * relaxed) / sigma
         lattice = layers * layer + (layers - 1) * relaxed
-        of_mean = _, axial, fibres = _split(layer, ratios, coupled, unlike)
-        needed = (_own(lattice) - lattice[:, 0, 1, None]) / (_own(membrane) - membrane[:, 0, 1, None])
+        of_mean = _, axial, fibres = _split(layer, ratios, coupled, anisotropic)
+        normal = _normal(lattice) - lattice[:, 0, 1, None]
+        needed = normal / (_normal(membrane) - membrane[:, 0, 1, None])
         needed = np.maximum(needed.max(axis=1), lattice[:, 2, 2] / membrane[:, 2, 2])
         if fibres.any():
-            needed[fibres] = _largest(lattice[fibres], membrane[fibres])
+            needed[fibres] = _largest_eigenvalue(lattice[fibres], membrane[fibres])
         if gradients:
             on_sides = layers * axial + (layers - 1) * along
             needed = np.maximum(needed, (on_sides / _on_sides(membrane)).max(axis=1))
-        if given:
+        if distance_given:
             break
-        open_ &= (needed > 0.0) & ~(np.abs(needed - lz2) < 1e-15 * needed)
-        if not open_.any():
+        iterating &= (needed > 0.0) & ~(np.abs(needed - lz2) < 1e-15 * needed)
+        if not iterating.any():
             break
-        lz2 = np.where(open_, needed, lz2)
-    found = (lz2 > 0.0) & (layer[:, 2, 2] > 0.0) & (axial.min(axis=1) >= 0.0)
-    if given:
-        found &= needed <= lz2 * (1.0 + 1e-9)
+        lz2 = np.where(iterating, needed, lz2)
+    exists = (lz2 > 0.0) & (layer[:, 2, 2] > 0.0) & (axial.min(axis=1) >= 0.0)
+    if distance_given:
+        exists &= needed <= lz2 * (1.0 + 1e-9)
     if fibres.any():
-        found[fibres] &= np.linalg.eigvalsh(layer[fibres])[:, 0] > 0.0
+        exists[fibres] &= np.linalg.eigvalsh(layer[fibres])[:, 0] > 0.0
     of: dict[str, Any] = {}
-    if unlike_layers:
+    if unequal_layers:
         outer = 0.5 * (layers - 1) * target.mixed * np.sqrt(lz2)[:, None, None] / sigma
         forms = layer - outer, layer + outer  # the lowest layer and the highest
-        splits = [_split(form, ratios, coupled, _unlike(form)) for form in forms]
+        splits = [_split(form, ratios, coupled, _anisotropic(form)) for form in forms]
         for form, (_, along_sides, _) in zip(forms, splits, strict=True):
-            found &= np.linalg.eigvalsh(form)[:, 0] > SOFTEST * layer[:, 0, 0]
-            found &= along_sides.min(axis=1) >= 0.0
+            exists &= np.linalg.eigvalsh(form)[:, 0] > SOFTEST * layer[:, 0, 0]
+            exists &= along_sides.min(axis=1) >= 0.0
         low, high = (_of_layer(form, split, sides) for form, split in zip(forms, splits, strict=True))
         for name in low.keys() & high.keys():
             of[name] = 0.5 * (low[name] + high[name])
@@ -179,14 +179,14 @@ def closed_form(
         of |= {"face_shear": faces.T * lz2, "face_diagonal_shear": over * lz2}
     else:
         of = _of_layer(layer, of_mean, sides)
-    lz2 = np.where(found, lz2, 1.0 if not given else lz2)
-    rest = membrane * lz2[:, None, None] - lattice
-    mid_area = np.where(fibres, 0.0, rest[:, 0, 1])
+    lz2 = np.where(exists, lz2, 1.0 if not distance_given else lz2)
+    middle = membrane * lz2[:, None, None] - lattice
+    mid_area = np.where(fibres, 0.0, middle[:, 0, 1])
     of |= {
-        f"mid_{name}": np.where(fibres, rest[:, row, column], 0.0) for name, row, column in COUPLED_STRAINS
+        f"mid_{name}": np.where(fibres, middle[:, row, column], 0.0) for name, row, column in COUPLED_STRAINS
     }
-    rest[:, :2, :2] -= mid_area[:, None, None]
-    rest[np.abs(rest) < 1e-12 * (membrane[:, 0, 0] * lz2)[:, None, None]] = 0.0
+    middle[:, :2, :2] -= mid_area[:, None, None]
+    middle[np.abs(middle) < 1e-12 * (membrane[:, 0, 0] * lz2)[:, None, None]] = 0.0
     across = np.sqrt(squares[:, ::-1] / squares).T
     of |= {
         "face_coupling": coupling * squares.sum(axis=1) / (lx * ly * shear_gaps(layers)) * lz2,
@@ -194,24 +194,24 @@ def closed_form(
         "cross": along.T * (squares.T + lz2) * across / (2.0 * squares.T),
         "cross_diagonal": p * (lx**2 + ly**2 + lz2) / (4.0 * lx * ly),
         "mid_area": mid_area,
-        "mid_shear": rest[:, 2, 2],
-        "mid_stretch": _own(rest).T,
+        "mid_shear": middle[:, 2, 2],
+        "mid_stretch": _normal(middle).T,
     }
-    return {name: values / lz2 for name, values in of.items()}, np.sqrt(lz2), found
+    return {name: values / lz2 for name, values in of.items()}, np.sqrt(lz2), exists
 
 
-def _unlike(form: np.ndarray) -> np.ndarray:
-    """Whether forms (m, 3, 3) are not those of an isotropic sheet, (m,)."""
+def _anisotropic(form: np.ndarray) -> np.ndarray:
+    """Return whether forms (m, 3, 3) are anisotropic, C11 − C12 ≠ 2 C66, (m,)."""
     stretching, shearing = form[:, 0, 0] - form[:, 0, 1], 2.0 * form[:, 2, 2]
     return np.asarray(np.abs(stretching - shearing) > 1e-9 * np.maximum(np.abs(stretching), np.abs(shearing)))
 
 
-def _split(layer: np.ndarray, ratios: np.ndarray, oblique: np.ndarray, unlike: np.ndarray) -> Split:
-    """Return the share f of C66 that diagonals have (m,), what axial links have of C11 and C22 (m, 2), and
-    whether cells need couplings (m,), of layers (m, 3, 3)."""
+def _split(layer: np.ndarray, ratios: np.ndarray, oblique: np.ndarray, anisotropic: np.ndarray) -> Split:
+    """Return, of layers (m, 3, 3), the share f of C66 in diagonals (m,), the parts of C11 and C22 in axial
+    links (m, 2), and whether cells need couplings (m,)."""
     by_diagonals = _by_diagonals(layer, ratios)
-    axial = _own(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
-    axial, fibres = _beside_fibres(oblique, unlike, layer, axial)
+    axial = _normal(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
+    axial, fibres = _with_fibres(oblique, anisotropic, layer, axial)
     by_diagonals[fibres] = 0.0
     return by_diagonals, axial, fibres
 
@@ -219,47 +219,47 @@ def _split(layer: np.ndarray, ratios: np.ndarray, oblique: np.ndarray, unlike: n
 def _of_layer(layer: np.ndarray, split: Split, sides: np.ndarray) -> dict[str, np.ndarray]:
     """Return the springs of layers (m, 3, 3) by name, (m,) or (2, m)."""
     (by_diagonals, axial, fibres), (lx, ly) = split, sides.T
-    own = {name: np.where(fibres, layer[:, row, column], 0.0) for name, row, column in COUPLED_STRAINS}
-    return own | {
+    couplings = {name: np.where(fibres, layer[:, row, column], 0.0) for name, row, column in COUPLED_STRAINS}
+    return couplings | {
         "axial": axial.T * np.stack([ly / lx, lx / ly]),
         "diagonal": by_diagonals * layer[:, 2, 2] * (lx**2 + ly**2) / (2.0 * lx * ly),
         "area": np.where(fibres, 0.0, layer[:, 0, 1] - by_diagonals * layer[:, 2, 2]),
-        "stretch": np.where(fibres, (_own(layer) - axial).T, 0.0),
+        "stretch": np.where(fibres, (_normal(layer) - axial).T, 0.0),
         "shear": (1.0 - by_diagonals) * layer[:, 2, 2],
     }
 
 
-def _own(form: np.ndarray) -> np.ndarray:
-    """11 and 22 of forms, (m, 2)."""
+def _normal(form: np.ndarray) -> np.ndarray:
+    """Return the entries 11 and 22 of forms, (m, 2)."""
     return np.diagonal(form, axis1=1, axis2=2)[:, :2]
 
 
-def _largest(form: np.ndarray, by: np.ndarray) -> np.ndarray:
-    """The largest eigenvalue of forms relative to others, (m,)."""
+def _largest_eigenvalue(form: np.ndarray, by: np.ndarray) -> np.ndarray:
+    """Return the largest eigenvalue of forms relative to others, (m,)."""
     inverse = np.linalg.inv(np.linalg.cholesky(by))
     return np.asarray(np.linalg.eigvalsh(inverse @ form @ np.swapaxes(inverse, 1, 2))[:, -1])
 
 
-def _beside_fibres(
-    oblique: np.ndarray, unlike: np.ndarray, layer: np.ndarray, axial: np.ndarray
+def _with_fibres(
+    oblique: np.ndarray, anisotropic: np.ndarray, layer: np.ndarray, axial: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """What of a layer's 11 and 22 its axial links have, (m, 2), and whether its cells need couplings, (m,):
-    at an angle to the fibres (`oblique`), and where area springs would leave the links along the sides, of a
-    sheet that is not isotropic (`unlike`), less than the third of E h of `gradients`. Such links have that
-    third."""
-    maybe = oblique | unlike
-    if not maybe.any():
-        return axial, maybe
-    maybe &= oblique | (np.linalg.eigvalsh(layer)[:, 0] > 0.0)
+    """Return the parts of a layer's 11 and 22 in axial links, (m, 2), and whether its cells need couplings,
+    (m,). Cells at an angle to the fibres (`oblique`) need them, and cells of an `anisotropic` sheet whose
+    area springs would leave the links along the sides less than a third of E h (`gradients`). Axial links
+    beside couplings have a third of E h."""
+    candidate = oblique | anisotropic
+    if not candidate.any():
+        return axial, candidate
+    candidate &= oblique | (np.linalg.eigvalsh(layer)[:, 0] > 0.0)
     third = np.zeros_like(axial)
-    third[maybe] = 1.0 / (3.0 * _own(np.linalg.inv(layer[maybe])))
-    fibres = maybe & (oblique | (axial < third).any(axis=1))
+    third[candidate] = 1.0 / (3.0 * _normal(np.linalg.inv(layer[candidate])))
+    fibres = candidate & (oblique | (axial < third).any(axis=1))
     return np.where(fibres[:, None], third, axial), fibres
 
 
 def diagonals_for_waves(target: Moduli, area: np.ndarray, bracket: np.ndarray) -> np.ndarray:
-    """The diagonals' share d of the shear for waves (m,), of cells of that area [m²]: the bracket, 5 + 3 ν
-    here, is what is too small without diagonals."""
+    """Return the diagonals' share d of the shear (m,) that makes oblique waves right in l². area: (m,) [m²]
+    of the cells; bracket: (m,) the factor of the error for d = 0, 5 + 3 ν for links."""
     rigidity = target.bending[:, 0, 0]
     stiffening = 12.0 * rigidity / (np.sqrt(target.shear.prod(axis=1)) * area)  # 1 + t
     linear = 12.0 * stiffening + 9.0
@@ -268,21 +268,22 @@ def diagonals_for_waves(target: Moduli, area: np.ndarray, bracket: np.ndarray) -
 
 
 def _by_diagonals(layer: np.ndarray, ratios: np.ndarray) -> np.ndarray:
-    """f (m,), the share of a layer's C66 that its diagonals have: half of what axial links leave room for."""
-    room = 0.5 * np.maximum(_own(layer) - layer[:, 0, 1, None], 0.0)
+    """Return f (m,), the share of a layer's C66 in diagonals: half of the share at which axial links
+    vanish."""
+    limit = 0.5 * np.maximum(_normal(layer) - layer[:, 0, 1, None], 0.0)
     target = layer[:, 2, 2, None] * (ratios - 1.0)
-    shares = np.divide(room, target, out=np.ones_like(room), where=target > room)
+    shares = np.divide(limit, target, out=np.ones_like(limit), where=target > limit)
     return np.minimum(1.0, shares.min(axis=1))
 
 
 def _on_sides(form: np.ndarray) -> np.ndarray:
-    """What of a form's 11 and 22 the links on a cell's sides should carry, (m, 2)."""
-    own = _own(form)
-    return np.asarray((own - form[:, 0, 1, None] ** 2 / own[:, ::-1]) / 3.0)
+    """Return the parts of a form's 11 and 22 that the links on a cell's sides should carry, (m, 2)."""
+    normal = _normal(form)
+    return np.asarray((normal - form[:, 0, 1, None] ** 2 / normal[:, ::-1]) / 3.0)
 
 
 def vertical(target: Moduli, sides: np.ndarray, lz2: float) -> np.ndarray:
-    """kz (m,) [N/m]: 8 D/lz² per square of the shorter spacing, over the cell; D² = D11 D22."""
+    """Return kz (m,) [N/m]: 8 D/lz² per square of the shorter spacing, over the cell; D² = D11 D22."""
     squares = sides.prod(axis=1) / sides.min(axis=1) ** 2
     return np.asarray(8.0 * np.sqrt(target.bending[:, 0, 0] * target.bending[:, 1, 1]) / lz2 * squares)
 
@@ -290,8 +291,8 @@ def vertical(target: Moduli, sides: np.ndarray, lz2: float) -> np.ndarray:
 def _relaxation(
     gap: np.ndarray, along: np.ndarray, p: np.ndarray, sides: np.ndarray, lz2: np.ndarray, upright: np.ndarray
 ) -> np.ndarray:
-    """δ lz² (m, 3, 3): what a gap's thickness, free to change, takes off its in-plane form; along: what of it
-    is the cross links'; upright: kz lz²."""
+    """Return δ lz² (m, 3, 3), the reduction of a gap's in-plane form because its thickness is free to change;
+    along: (m, 2) the cross links' part of the form; upright: kz lz² [N·m]."""
     area = sides.prod(axis=1)
     coupling = gap / sides**2  # the gap's S along x, y [N/m]
     thickness = upright / area + ((along / sides**4).sum(axis=1) + p / area**2) * lz2

@@ -1,7 +1,7 @@
-"""Every modulus matched: the closed form where its links are nonnegative, bounded least squares elsewhere;
-and along free, hinged and held edges the twist that a plate lets go there (`lumped.calibration.edge_twist`).
+"""Springs that match every modulus: the closed form if its links are nonnegative, else bounded least squares;
+and along free, hinged and held edges the twist of a plate (`lumped.calibration.edge_twist`).
 
-Of a graded grid every cell has its closed form (`lumped.calibration.cell_by_cell`).
+Every cell of a graded grid has its closed form (`lumped.calibration.cell_by_cell`).
 """
 
 from __future__ import annotations
@@ -40,16 +40,15 @@ def consistent(
     cells: Cells | CellSection | None = None,
     method: str = "consistent",
 ) -> Calibration:
-    """The moduli of the sheet, and the twist of its edges: of second order in the size of the cells.
+    """Return springs with the sheet's moduli and the twist of its edges, of second order in the cells' size.
 
-    The closed form; with a given layer distance, or where it would need a negative link, bounded least
-    squares on the same moduli. grading: of the grid (`lumped.grid_lines`); cells: what they are made of,
-    where they differ. method: `consistent-interior` has cells along edges like those inside,
-    `consistent-membrane` layers so far apart that a cell bends in its own plane as the sheet does,
-    `consistent-oblique` waves oblique to the grid right in l² too (`lumped.calibration.closed_form`), both in
-    closed form only.
+    The closed form; with a given layer distance, or if it would need a negative link, bounded least squares.
+    grading: of the grid (`lumped.grid_lines`); cells: table or sections of unequal cells. method:
+    `consistent-interior` has cells along edges like cells inside, `consistent-membrane` a layer distance with
+    which a cell bends in its plane as the sheet does, `consistent-oblique` waves oblique to the grid right in
+    l² too (`lumped.calibration.closed_form`), both in closed form only.
 
-    Raises BadInput where area springs would leave a cell without positive energy, and for a graded grid whose
+    Raises BadInput if area springs would leave a cell without positive energy, and for a graded grid whose
     cells have no closed form.
     """
     of_material = cells is None and material.kind == "orthotropic"
@@ -58,18 +57,18 @@ def consistent(
     if isinstance(cells, Cells):
         cells = sections.of_cells(cells, grid)
     special = {"gradients": method == "consistent-membrane", "waves": method == "consistent-oblique"}
-    each = each_cell(sheet, material, grid, grading, cells)
+    grid_cells = each_cell(sheet, material, grid, grading, cells)
     even = not grading and cells is None
     try:
         if even and layer_distance is not None:
             raise NoClosedForm
-        springs = springs_of_cells(each, layer_distance, **special)
+        springs = springs_of_cells(grid_cells, layer_distance, **special)
     except NoClosedForm as cell:
         if not even:
             given = (
                 f"{grid[2]} layers" if layer_distance is None else f"layer_distance = {layer_distance:g} m"
             )
-            if each.target.mixed.any():
+            if grid_cells.target.mixed.any():
                 raise BadInput(
                     f"layer: not symmetric about the middle: no springs with {given} stretch and bend "
                     "as they do; take two layers and no layer distance of your own, or the shell"
@@ -78,11 +77,13 @@ def consistent(
                 f"grading = {grading:g}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
                 "has no closed form; take two layers, no layer distance of your own, or grading 0"
             ) from None
-        springs = fit_moduli(each, layer_distance)
+        springs = fit_moduli(grid_cells, layer_distance)
     notes: list[str] = []
-    whole = moduli.of_cells(springs, each.sides, grid[2])
-    if whole.mixed[..., :2, 2].any():  # then the moment that fades at an edge is of the stretch along it too
+    cell_moduli = moduli.of_cells(springs, grid_cells.sides, grid[2])
+    if cell_moduli.mixed[
+        ..., :2, 2
+    ].any():  # the moment that fades at an edge depends on the stretch along it too
         notes = ["layers that twist when pulled: cells along edges are like those inside, of first order"]
     elif method != "consistent-interior":
-        springs, notes = with_twist(each, springs, whole)
-    return replace(report(method, each, springs, notes, whole), of_material=of_material)
+        springs, notes = with_twist(grid_cells, springs, cell_moduli)
+    return replace(report(method, grid_cells, springs, notes, cell_moduli), of_material=of_material)

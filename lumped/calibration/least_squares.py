@@ -1,10 +1,10 @@
 """Springs that meet the moduli as nearly as they can: bounded least squares on A, D and S.
 
-The method for a layer distance that is given, for more layers than the closed form can do with nonnegative
+The method for a layer distance that is given, for more layers than the closed form permits with nonnegative
 links, and a check of the closed form where both apply. Links and strain springs are kept nonnegative; area
-springs may have either sign; strain springs come in only where the others leave a miss, and then as weak as
-will do. Residuals are relative to the sheet's own moduli (off-diagonal terms to D11 and
-A11); bending and shear weigh more than stretching, since a soft sheet bends first.
+springs may have either sign; strain springs are used only if the others miss a modulus, and then as weak as
+possible. Residuals are relative to the sheet's moduli (off-diagonal terms to D11 and A11); bending and shear
+weigh more than stretching, since a soft sheet bends first.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 
 from lumped import moduli
-from lumped.calibration.cell_by_cell import EachCell
+from lumped.calibration.cell_by_cell import GridCells
 from lumped.spring_constants import Springs, by_direction
 
-STRETCHING = 0.3  # weight of A; those of D and S are 1
+STRETCHING = 0.3  # weight of A; D and S have the weight 1
 PAIRS = ("axial", "cross", "mid_stretch")
 STRAINS = ("mid_stretch_x", "mid_stretch_y", "shear", "mid_shear")
 FREE = ("area", "mid_area")
 MATCHED = 1e-6  # weighted miss that counts as none
-PLACES = [0, 0, 1, 2], [0, 1, 1, 2]  # of misses
-LIKE = [0, 0, 0, 2], [0, 0, 0, 2]  # by which they are divided
+PLACES = [0, 0, 1, 2], [0, 1, 1, 2]  # entries of a form whose misses count
+SCALES = [0, 0, 0, 2], [0, 0, 0, 2]  # entries that the misses are divided by
 WEAK = 1e-4  # weight of the strain springs themselves, where they are needed
 UNKNOWNS = (
     *(f"{name}_{direction}" for name in PAIRS for direction in "xy"),
@@ -35,16 +35,16 @@ UNKNOWNS = (
 )
 
 
-def fit_moduli(each: EachCell, layer_distance: float | None = None) -> Springs:
-    """The springs of least weighted miss.
+def fit_moduli(grid_cells: GridCells, layer_distance: float | None = None) -> Springs:
+    """Return the springs of least weighted miss.
 
     Unknowns: the five link families, axial and cross each along x and y, the strain springs, all ≥ 0;
     area, mid_area of any sign; the layer distance unless given. kz as in the closed form.
     """
     from scipy.optimize import least_squares
 
-    layers, target = each.grid[2], each.target
-    first_distance = layer_distance or each.sheet.thickness / (layers - 1)
+    layers, target = grid_cells.grid[2], grid_cells.target
+    first_distance = layer_distance or grid_cells.sheet.thickness / (layers - 1)
 
     def springs_of(unknowns: np.ndarray) -> Springs:
         distance = layer_distance or first_distance * float(np.exp(unknowns[-1]))
@@ -55,30 +55,30 @@ def fit_moduli(each: EachCell, layer_distance: float | None = None) -> Springs:
         return Springs.made(**values, vertical=4.0 * stiffness, layer_distance=distance)
 
     def misses(unknowns: np.ndarray) -> np.ndarray:
-        got = moduli.of_cells(springs_of(unknowns), each.sides, layers)
+        got = moduli.of_cells(springs_of(unknowns), grid_cells.sides, layers)
         rows = [(got.shear[0, 0] - target.shear[0]) / target.shear[0]]
-        for found, wanted, weight in (
+        for form, goal, weight in (
             (got.bending[0, 0], target.bending[0], 1.0),
             (got.membrane[0, 0], target.membrane[0], STRETCHING),
         ):
-            rows.append(weight * (found - wanted)[PLACES] / wanted[LIKE])
+            rows.append(weight * (form - goal)[PLACES] / goal[SCALES])
         return np.concatenate(rows)
 
     strains = [UNKNOWNS.index(name) for name in STRAINS]
-    every = np.arange(len(UNKNOWNS) + (0 if layer_distance else 1))
-    kinds = [every < len(UNKNOWNS) - len(FREE), every < len(UNKNOWNS)]
+    numbers = np.arange(len(UNKNOWNS) + (0 if layer_distance else 1))
+    kinds = [numbers < len(UNKNOWNS) - len(FREE), numbers < len(UNKNOWNS)]
     start, low = np.select(kinds, [0.3, 0.1]), np.select(kinds, [0.0, -np.inf], -2.0)
     high = np.select(kinds, [np.inf, np.inf], 2.0)
 
     def fitted(active: np.ndarray) -> np.ndarray:
-        """The unknowns of least weighted miss; those that are not active stay 0."""
+        """Return the unknowns of least weighted miss; unknowns that are not active stay 0."""
 
         def of(values: np.ndarray) -> np.ndarray:
             unknowns = np.zeros_like(start)
             unknowns[active] = values
             return unknowns
 
-        found = least_squares(
+        fit = least_squares(
             lambda values: np.append(misses(of(values)), WEAK * of(values)[strains]),
             start[active],
             jac="3-point",
@@ -89,9 +89,9 @@ def fit_moduli(each: EachCell, layer_distance: float | None = None) -> Springs:
             gtol=1e-15,
             max_nfev=3000,
         )
-        return of(found.x)
+        return of(fit.x)
 
-    found = fitted(np.setdiff1d(every, strains))
-    if np.abs(misses(found)).max() > MATCHED:
-        found = fitted(every)
-    return springs_of(found)
+    unknowns = fitted(np.setdiff1d(numbers, strains))
+    if np.abs(misses(unknowns)).max() > MATCHED:
+        unknowns = fitted(numbers)
+    return springs_of(unknowns)

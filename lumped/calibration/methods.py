@@ -1,4 +1,4 @@
-"""Methods that need nothing but the sheet and its material, by name; springs that a scene brings itself."""
+"""Calibration methods that need the sheet and its material alone, by name; springs of a scene's table."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
 
-SPRINGS: dict[str, Callable[..., Springs | tuple[Springs, list[str]]]] = {  # or with what to note of them
+SPRINGS: dict[str, Callable[..., Springs | tuple[Springs, list[str]]]] = {  # or springs with notes
     "moduli": fit_moduli,
     "uniform": uniform,
     "cauchy": cauchy,
@@ -34,12 +34,12 @@ SPRINGS: dict[str, Callable[..., Springs | tuple[Springs, list[str]]]] = {  # or
 }
 
 
-def alike(method: str, sheet: Sheet, material: Material, grid: Grid, **options: Any) -> Calibration:
-    """Springs that are the same in all cells, of one of the methods above."""
-    each = each_cell(sheet, material, grid)
-    found = SPRINGS[method](each, **options)
-    springs, notes = found if isinstance(found, tuple) else (found, [])
-    return report(method, each, springs, notes)
+def equal_springs(method: str, sheet: Sheet, material: Material, grid: Grid, **options: Any) -> Calibration:
+    """Return springs that are alike in all cells, by a method of SPRINGS."""
+    grid_cells = each_cell(sheet, material, grid)
+    result = SPRINGS[method](grid_cells, **options)
+    springs, notes = result if isinstance(result, tuple) else (result, [])
+    return report(method, grid_cells, springs, notes)
 
 
 # by name: make(sheet, material, grid, **options), with the options that `sheetbench.choices` names
@@ -50,27 +50,43 @@ MAKERS: dict[str, Callable[..., Calibration]] = {
     "consistent-oblique": partial(consistent, method="consistent-oblique"),
     "neo-hookean": partial(hyperelastic, method="neo-hookean"),
     "hyperelastic": hyperelastic,
-    **{name: partial(alike, name) for name in SPRINGS},
+    **{name: partial(equal_springs, name) for name in SPRINGS},
 }
 
 
 def given(
     scene: Scene, grid: int | Sequence[int] | None = None, grading: Graded | None = None
 ) -> Calibration:
-    """The springs of the scene's own [springs] table, with their moduli report.
+    """Return the springs of a scene's [springs] table.
 
-    grid: as `scenes.objects.grid` reads it; by default the table's own, or nine masses along the shorter
-    side where it names none; grading: the table's own unless given. Raises Impossible when the scene has no
-    springs, or those of another lattice.
+    Parameters
+    ----------
+    scene : Scene
+        Scene with a [springs] table.
+    grid : int or sequence of int, optional
+        Masses along the shorter side, (nx, ny) or (nx, ny, layers); by default the table's grid, or nine
+        masses along the shorter side.
+    grading : float or Grading, optional
+        Grading of the grid's lines; by default the table's.
+
+    Returns
+    -------
+    Calibration
+        The table's spring constants [N/m] with a report of the moduli that they meet.
+
+    Raises
+    ------
+    Impossible
+        If the scene has no springs, or springs of another grid or grading.
     """
     if (table := scene.springs) is None:
         raise Impossible(f"scene '{scene.name}' has no [springs] table")
     requested = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
     if table.grid not in (None, requested):
-        own, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
+        named, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
         raise Impossible(
-            f"scene '{scene.name}': springs.grid = {own}: these springs are not those of {other} masses; "
-            f"solve on {own}, or find others: sheetbench calibrate --grid {other} --toml"
+            f"scene '{scene.name}': springs.grid = {named}: these springs are not those of {other} masses; "
+            f"solve on {named}, or find others: sheetbench calibrate --grid {other} --toml"
         )
     graded = table.graded(scene.sheet.lengths)
     if grading not in (None, graded):
@@ -87,13 +103,13 @@ def given(
             f"own, and these are the same for all: sheetbench calibrate --grading {graded:g} --toml"
         )
     cells = sections_of(scene, requested, graded)
-    each = each_cell(scene.sheet, scene.material, requested, graded, cells if springs.varies else None)
-    return replace(report("scene", each, springs), masses=table.masses, cells=cells)
+    grid_cells = each_cell(scene.sheet, scene.material, requested, graded, cells if springs.varies else None)
+    return replace(report("scene", grid_cells, springs), masses=table.masses, cells=cells)
 
 
 def default(scene: Scene) -> Calibration:
-    """The scene's own springs, or else consistent ones, of rubber those of its law, on nine masses along the
-    shorter side."""
+    """Return the scene's springs, or else consistent ones, for rubber springs of its law, on nine masses
+    along the shorter side."""
     if scene.springs is not None:
         return given(scene)
     grid = grid_of(scene.sheet)

@@ -1,4 +1,5 @@
-"""Which moduli of the sheet a lattice meets, of all cells, and notes on those that it misses."""
+"""Report of the moduli of the sheet and of a lattice's cells, with notes on moduli that the lattice
+misses."""
 
 from __future__ import annotations
 
@@ -9,52 +10,54 @@ import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.cell_by_cell import EachCell
+from lumped.calibration.cell_by_cell import GridCells
 from lumped.spring_constants import COUPLINGS, MID_COUPLINGS, Springs
 from sheetbench.answers.table import number
 from sheetbench.errors import BadInput
 
-ALIKE = 1e-9
+EQUAL = 1e-9  # relative difference up to which two numbers are equal
 
 
 def report(
     method: str,
-    each: EachCell,
+    grid_cells: GridCells,
     springs: Springs,
     more: Sequence[str] = (),
-    whole: moduli.Moduli | None = None,
+    cell_moduli: moduli.Moduli | None = None,
 ) -> Calibration:
-    """The calibration with its moduli report, and notes on what it misses and why, and more. Of unequal cells
-    each modulus is reported of the cell that misses it most, of those that miss it alike the stiffest. whole:
-    the moduli of the springs, where they are known.
+    """Return the calibration with its moduli report, notes on moduli that it misses and the notes `more`.
 
-    Raises BadInput where area springs leave a cell without positive energy.
+    For unequal cells each modulus is reported for the cell with the largest miss, the stiffest among equal
+    misses. cell_moduli: of the springs, if computed before. Raises BadInput where area springs leave a
+    cell without positive energy.
     """
-    (sides, section), sheet = each.present, each.target
-    whole = moduli.of_cells(springs, each.sides, each.grid[2]) if whole is None else whole
-    there = np.broadcast_to(each.there, whole.shear.shape[:2])
-    got = moduli.Moduli(*(part[there] for part in vars(whole).values()))
-    rigidity, other = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
-    square = np.abs(sides[:, 0] - sides[:, 1]) < ALIKE * sides[:, 0]
+    (sides, section), sheet = grid_cells.present, grid_cells.target
+    cell_moduli = (
+        moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2]) if cell_moduli is None else cell_moduli
+    )
+    covered = np.broadcast_to(grid_cells.covered, cell_moduli.shear.shape[:2])
+    got = moduli.Moduli(*(part[covered] for part in vars(cell_moduli).values()))
+    rigidity, rigidity_y = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
+    square = np.abs(sides[:, 0] - sides[:, 1]) < EQUAL * sides[:, 0]
     oblique, mixed = bool(sheet.oblique.any()), bool(sheet.mixed.any())
-    square &= (np.abs(rigidity - other) < ALIKE * rigidity) & (not mixed)
+    square &= (np.abs(rigidity - rigidity_y) < EQUAL * rigidity) & (not mixed)
     named = not oblique and bool(np.all(square)), oblique, mixed
     names = sheet.named(*named)
-    targets, found = (np.array([*of.values()]) for of in (names, got.named(*named)))
+    targets, results = (np.array([*of.values()]) for of in (names, got.named(*named)))
     both = np.sqrt(names["A11"] * names["D11"])  # the size of B
-    sizes = np.array([both if name[0] == "B" else np.abs(names[_like(name)]) for name in names])
-    misses = (found - targets) / np.where(targets == 0.0, sizes, targets)
-    off_most = np.abs(misses) >= np.abs(misses).max(axis=1, keepdims=True) - ALIKE
+    sizes = np.array([both if name[0] == "B" else np.abs(names[_reference(name)]) for name in names])
+    misses = (results - targets) / np.where(targets == 0.0, sizes, targets)
+    off_most = np.abs(misses) >= np.abs(misses).max(axis=1, keepdims=True) - EQUAL
     rows: dict[str, dict[str, Any]] = {}
     worst = np.where(off_most, rigidity, 0.0).argmax(axis=1)
-    for name, at, *values in zip(names, worst, targets, found, misses, strict=True):
+    for name, at, *values in zip(names, worst, targets, results, misses, strict=True):
         asked_got_miss = (float(of_cells[at]) for of_cells in values)
         rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
         if name.startswith("S"):
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
     areas = springs["area"], springs["mid_area"]
-    constants = "area = {}, mid_area = {} N/m".format(*map(_shown, areas))
+    constants = "area = {}, mid_area = {} N/m".format(*map(_range_text, areas))
     negative = min(map(np.min, areas)) < 0.0
     coupled = springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}
     forms = (got.membrane, got.free_bending) if negative or coupled or mixed else ()
@@ -70,16 +73,18 @@ def report(
         notes.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
     if negative:  # ν < 1/3
         notes.append(f"{constants}: negative area springs are admissible here, the cell's energy is positive")
-    settings: dict[str, Any] = {"grading": each.grading, "cells": each.cells}
-    return Calibration(method, each.grid, springs.table(), tuple(rows.values()), (*notes, *more), **settings)
+    settings: dict[str, Any] = {"grading": grid_cells.grading, "cells": grid_cells.cells}
+    return Calibration(
+        method, grid_cells.grid, springs.table(), tuple(rows.values()), (*notes, *more), **settings
+    )
 
 
-def _like(name: str) -> str:
-    """The modulus by whose size another is measured: D11 for D12, D16 and D26, Sx for Sxy."""
+def _reference(name: str) -> str:
+    """Return the modulus that gives the scale of another: D11 for D12, D16 and D26, Sx for Sxy."""
     return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name.replace("Sxy", "Sx")
 
 
-def _shown(values: np.ndarray) -> str:
-    """A number, or the least and the largest of the cells' own."""
+def _range_text(values: np.ndarray) -> str:
+    """Return a number, or the least and the largest number of the cells, as text."""
     least, most = values.min(), values.max()
     return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"

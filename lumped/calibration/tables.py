@@ -1,4 +1,4 @@
-"""Spring constants and moduli as tables; a calibration as its document gives it."""
+"""Tables of spring constants and moduli from a calibration's document."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 
 
 def springs(calibration: dict[str, Any]) -> Table:
-    """A row per family, and per direction where they differ, of unequal cells the softest and the stiffest
-    that is not 0; `calibration` as its `document` gives it."""
+    """Return the table of constants, a row per family, and per direction if directions differ; for unequal
+    cells the least and the largest that is not 0. calibration: its `document`."""
     rows, meanings = [], sentences(SpringSet)
     by_axis = [value if isinstance(value, dict) else {"": value} for value in calibration["springs"].values()]
     unequal = any(np.ndim(k) for directions in by_axis for k in directions.values())
     for name, directions in zip(calibration["springs"], by_axis, strict=True):
         meaning = re.split(r"[.:] |, energy|\.$", meanings.get(name, ""))[0]
         for axis, k in directions.items():
-            there = np.ravel(k)[np.ravel(k) != 0.0] if np.any(k) else np.zeros(1)  # none in holes
-            ends = [float(there.min()), float(there.max())] if unequal else [k]
+            nonzero = np.ravel(k)[np.ravel(k) != 0.0] if np.any(k) else np.zeros(1)  # 0 in holes
+            ends = [float(nonzero.min()), float(nonzero.max())] if unequal else [k]
             rows.append((f"{name} {axis}".strip(), meaning, *ends))
     headings = ("least", "largest") if unequal else ("stiffness",)
     columns = (
@@ -38,7 +38,8 @@ def springs(calibration: dict[str, Any]) -> Table:
 
 
 def moduli(calibration: dict[str, Any]) -> Table:
-    """A row per modulus: the sheet's, the target of the springs on this grid, the lattice's.
+    """Return the table of moduli, a row each: the sheet's, the target of the springs on this grid, the
+    lattice's.
 
     Targets are the sheet's moduli, but for the transverse shear: the sheet has κGh, the target is MacNeal's
     S* (`lumped.moduli`), with which cells bend as the sheet does.
@@ -58,8 +59,8 @@ def moduli(calibration: dict[str, Any]) -> Table:
         Column("off target by", "", "%", 100.0, "z.2f"),
     )
     note = (
-        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh to cancel the shear error of "
-        "cells of length l"
+        "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh on purpose: cells of length l "
+        "are too stiff in shear by l²/12D11"
     )
     return Table(
         "Moduli of the sheet and of the lattice",
@@ -71,7 +72,7 @@ def moduli(calibration: dict[str, Any]) -> Table:
 
 
 def _edges(calibration: dict[str, Any]) -> str:
-    """What cells along edges that let twist go have of D66, as the end of a sentence."""
+    """Return the end of a sentence with the factor of D66 in cells along free, hinged and held edges."""
     shear, layers = calibration["springs"].get("edge_shear"), calibration["grid"][2]
     if not shear:
         return ""
@@ -80,10 +81,10 @@ def _edges(calibration: dict[str, Any]) -> str:
     both = [*shear.values()] if isinstance(shear, dict) else [shear, shear]
     factors: list[float] = []
     for cells, along in zip(both, ("1", "2"), strict=True):
-        own = got.get(f"D{along}{along}", got["D11"])  # on square cells one value is both's
-        twisting = got["D66"] - got.get(f"D{along}6", 0.0) ** 2 / own
+        normal = got.get(f"D{along}{along}", got["D11"])  # square cells have one value for both
+        twisting = got["D66"] - got.get(f"D{along}6", 0.0) ** 2 / normal
         factors += [1.0 + float(k) * square / twisting for k in (np.min(cells), np.max(cells))]
-    share = " to ".join(dict.fromkeys(number(each, ".3f") for each in (min(factors), max(factors))))
-    what = "D66 less D16²/D11 or D26²/D22" if "D16" in got else "D66"
-    cells_there = "in cells along free, hinged and held edges"
-    return f". {what}: times {share} {cells_there}, to match the torsion of a strip"
+    share = " to ".join(dict.fromkeys(number(end, ".3f") for end in (min(factors), max(factors))))
+    modulus = "D66 less D16²/D11 or D26²/D22" if "D16" in got else "D66"
+    place = "in cells along free, hinged and held edges"
+    return f". {modulus}: times {share} {place}, to match the torsion of a strip"

@@ -1,6 +1,6 @@
 """Dynamics of the lattice: integrators by name, streaming runs, histories."""
 
-from lumped.dynamics.explicit.step_limit import StepLimit, measured_limit, step_limit, turn_limit
+from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limit
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator
 from lumped.dynamics.runs.initial import in_motion
@@ -17,7 +17,6 @@ __all__ = [
     "System",
     "explicit_limit",
     "in_motion",
-    "measured_limit",
     "require_integrator",
     "shortest_period",
     "simulate",

@@ -1,10 +1,9 @@
-"""What damps a scene's lattice: link dampers, area dampers, mass-proportional damping, the air's drag.
+"""Damping of a scene's lattice: link dampers, area dampers, mass-proportional damping, the air's drag.
 
-Every link's damper acts along the link (`lumped.springs.links`). Its coefficient is that of the
-scene's [dampers] table by family, or else damping_time × k; area and strain springs have dampers with
-damping_time only (`lumped.springs.cells`), since the table has no entry for
-them. damping_rate × m v acts on every mass, and drag (`lumped.dynamics.drag`) in air. What has a zero
-coefficient is not assembled.
+Every link's damper acts along the link (`lumped.springs.links`). Its coefficient is in the scene's [dampers]
+table by family, or else damping_time × k; area and strain springs have dampers with damping_time only
+(`lumped.springs.cells`), since the table has no entry for them. damping_rate × m v acts on every mass, and
+drag (`lumped.dynamics.drag`) in air. Dampers with a zero coefficient are not assembled.
 """
 
 from __future__ import annotations
@@ -27,13 +26,13 @@ from sheetbench.scenes import Scene
 class Damping:
     """Damping forces, (size, 3) [N], on masses and actuators' rows. mass: (n,) [kg].
 
-    dampers: those of the lattice; time [s]: coefficient over stiffness, where every spring has one of the
-    same (else 0); rate: of the masses (n,) [kg/s]; drag: of the air; present: whether there are any;
-    proportional: to the stiffness and the masses, in the flat sheet.
+    dampers: of the lattice's springs; time [s]: coefficient over stiffness if equal for all springs, else 0;
+    rate: of the masses (n,) [kg/s]; drag: of the air; present: whether there is any damping; proportional:
+    whether it is proportional to the stiffness and the masses, in the flat sheet.
     """
 
     def __init__(self, scene: Scene, assembly: Assembly, mass: np.ndarray):
-        self.drag, self._own = drag.of_scene(scene, assembly), assembly.pattern.diagonal[: len(mass)]
+        self.drag, self._diagonal = drag.of_scene(scene, assembly), assembly.pattern.diagonal[: len(mass)]
         self.rate = scene.material.damping_rate * mass
         self.time = 0.0
         if scene.dampers is not None:
@@ -42,25 +41,25 @@ class Damping:
             time = scene.material.dashpot_time
             self.dampers = assembly.all_families.damped(time) if time else []
             self.time = time if assembly.conservative else 0.0
-        apart = self.dampers and not self.time
-        self._together = AllFamilies(self.dampers, assembly.pattern) if apart else None
+        separate = self.dampers and not self.time
+        self._unproportional = AllFamilies(self.dampers, assembly.pattern) if separate else None
         in_chains = any(getattr(a, "damping_time", 0.0) > 0.0 for a in scene.actuators)
         others = scene.dampers or scene.actuators or self.drag.coefficient
         self.proportional = not others and assembly.conservative
         self.present = bool(self.dampers or self.rate.any() or in_chains or self.drag.coefficient)
 
     def add_velocity_tangent(self, u: np.ndarray, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the force by the velocity to the 3×3 blocks, but for the dampers in
-        proportion to the springs (`time`) and to the masses (`rate`)."""
-        if self._together is not None:
-            blocks += self._together.tangent(u, share=0.0, scale=scale)
+        """Add scale × the derivative of the force by the velocity to the 3×3 blocks, without the dampers
+        proportional to the springs (`time`) and to the masses (`rate`)."""
+        if self._unproportional is not None:
+            blocks += self._unproportional.tangent(u, share=0.0, scale=scale)
         if self.drag.coefficient:
-            blocks[self._own] += scale * drag.velocity_tangent(self.drag, u, v)
+            blocks[self._diagonal] += scale * drag.velocity_tangent(self.drag, u, v)
 
 
 class MovingForces(NamedTuple):
-    """What compiled loops take of a lattice in motion: its springs and dampers, and where their forces are
-    computed; the masses' own damping (n,) [kg/s]; the air's drag."""
+    """Arrays of a lattice in motion for compiled loops. packing: springs and dampers; scratch: work arrays;
+    rate: (n,) [kg/s] damping of the masses; drag: of the air."""
 
     packing: Packing
     scratch: Scratch
@@ -72,8 +71,8 @@ class MovingForces(NamedTuple):
 def add_forces(
     forces: MovingForces, u: np.ndarray, v: np.ndarray, elastic: bool, damped: bool, out: np.ndarray
 ) -> tuple[float, float]:
-    """Add the springs' force at a displacement (n, 3) [m], if elastic, and if damped what resists a velocity
-    (n, 3) [m/s] to `out` (n, 3) [N]; return the energy [J] and the power taken [W]."""
+    """Add the springs' force at a displacement (n, 3) [m], if elastic, and the damping force at a velocity
+    (n, 3) [m/s], if damped, to `out` (n, 3) [N]; return the energy [J] and the power taken [W]."""
     energy, power, resists = 0.0, 0.0, damped and forces.packing.damped
     if damped:
         power = add_resistance(forces, u, v, out)
@@ -85,7 +84,7 @@ def add_forces(
 
 @njit
 def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.ndarray) -> float:
-    """Add the forces of the masses' own damping and of the air; return the power taken [W]."""
+    """Add the forces of the masses' damping and of the air; return the power taken [W]."""
     power = drag.add_drag(forces.drag, u, v, out)
     for i in range(len(forces.rate)):
         for q in range(3 if forces.rate[i] else 0):
@@ -99,8 +98,8 @@ def add_resistance(forces: MovingForces, u: np.ndarray, v: np.ndarray, out: np.n
 def add_damping_again(
     forces: MovingForces, u: np.ndarray, v: np.ndarray, pushed: bool, out: np.ndarray
 ) -> float:
-    """Return the power [W] that all that damps takes at velocity v (n, 3) [m/s], at the displacement of the
-    last `add_forces`; add the springs' dampers' force to `out` only if `pushed`."""
+    """Return the power [W] of all damping at velocity v (n, 3) [m/s], at the displacement of the last
+    `add_forces`; add the springs' dampers' force to `out` only if `pushed`."""
     power = add_resistance(forces, u, v, out)
     if forces.packing.damped:
         power += resist_again(v, pushed, forces.packing, forces.scratch, out)

@@ -4,10 +4,9 @@ Every mass has its part A of the current area as a vector and the velocity v alo
 
     F = −½ ρ c_d |v_n| v_n A,   v_n = v·A/|A|,   ∂F/∂v = −ρ c_d |v_n| A Aᵀ/|A|.
 
-A is the force on it of a unit pressure (`lumped.pressure`), as much larger or smaller as the mass is than
-its tributary one (`lumped.masses`): a sheet that falls flat stays so. The power taken is ½ ρ c_d |v_n|³ |A|.
-How A changes with the shape is left out of tangents: it is of the order of the turn in a step. Chains have
-no drag.
+A is the force on it of a unit pressure (`lumped.pressure`) times the ratio of the mass and its tributary one
+(`lumped.masses`): a sheet that falls flat stays flat. The power taken is ½ ρ c_d |v_n|³ |A|. Tangents leave
+out the change of A with the shape, of the order of the turn in a step. Chains have no drag.
 """
 
 from __future__ import annotations
@@ -27,9 +26,9 @@ TINY = np.finfo(float).tiny ** 0.5
 
 
 class LatticeDrag(NamedTuple):
-    """coefficient: ½ ρ c_d [kg/m³], 0 without air; positions: at rest (n, 3) [m]; cells: columns of masses
-    at the corners of the mid-surface's cells (c, 4, layers); shares: of each that is on the sheet, (c,);
-    weights: mass over tributary mass, (n,); area: where A (n, 3) [m²] is computed."""
+    """Drag of a lattice. coefficient: ½ ρ c_d [kg/m³], 0 without air; positions: at rest (n, 3) [m]; cells:
+    columns of masses at the corners of the mid-surface's cells (c, 4, layers); shares: (c,) of each cell on
+    the sheet; weights: (n,) mass over tributary mass; area: (n, 3) [m²] work array for A."""
 
     coefficient: float
     positions: np.ndarray
@@ -40,7 +39,7 @@ class LatticeDrag(NamedTuple):
 
 
 def of_scene(scene: Scene, assembly: Assembly) -> LatticeDrag:
-    """The drag on the masses of a scene's lattice."""
+    """Return the drag on the masses of a scene's lattice."""
     lattice, cells = assembly.lattice, assembly.cells
     coefficient = 0.0 if scene.air is None else scene.air.coefficient
     area = np.zeros_like(lattice.positions)
@@ -51,7 +50,7 @@ def of_scene(scene: Scene, assembly: Assembly) -> LatticeDrag:
 
 @njit
 def _to_areas(drag: LatticeDrag, u: np.ndarray) -> None:
-    """A of the masses displaced by u."""
+    """Set `drag.area` to A of the masses displaced by u."""
     drag.area[:] = 0.0
     add_forces(drag.positions + u[: len(drag.area)], drag.cells, drag.shares, drag.area)
     for i in range(len(drag.area)):
@@ -60,8 +59,8 @@ def _to_areas(drag: LatticeDrag, u: np.ndarray) -> None:
 
 @njit
 def add_drag(drag: LatticeDrag, u: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
-    """Add the drag, signed as an internal force, at a displacement and velocity (size, 3); the power taken
-    [W]."""
+    """Add the drag, signed as an internal force, at a displacement and velocity (size, 3); return the power
+    taken [W]."""
     power = 0.0
     if drag.coefficient == 0.0:
         return power
@@ -69,7 +68,7 @@ def add_drag(drag: LatticeDrag, u: np.ndarray, v: np.ndarray, force: np.ndarray)
     for i in range(len(drag.area)):
         a, w = drag.area[i], v[i]
         size = np.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
-        if size == 0.0:  # of no cell
+        if size == 0.0:  # a mass without cells
             continue
         speed = (w[0] * a[0] + w[1] * a[1] + w[2] * a[2]) / size
         pressure = drag.coefficient * abs(speed) * speed
@@ -80,7 +79,7 @@ def add_drag(drag: LatticeDrag, u: np.ndarray, v: np.ndarray, force: np.ndarray)
 
 
 def velocity_tangent(drag: LatticeDrag, u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Its derivative by each mass's own velocity, (n, 3, 3) [N·s/m]."""
+    """Return the derivative of each mass's drag by its velocity, (n, 3, 3) [N·s/m]."""
     _to_areas(drag, u)
     area, size = drag.area, np.linalg.norm(drag.area, axis=1)
     flow = np.abs(np.sum(v[: len(area)] * area, axis=1))

@@ -1,4 +1,4 @@
-"""What every integrator of a lattice offers."""
+"""The interface of a lattice's integrators."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ STEPS_PER_PERIOD = 200  # by default
 
 
 class LatticeSamples(NamedTuple):
-    """States at k moments: times (k,) [s]; displacements, velocities, accelerations (k, size, 3); memories of
-    the material's branches; energies (k,) [J] that dampers took and that were put in."""
+    """States at k times. time: (k,) [s]; u, v, a: (k, size, 3) displacements [m], velocities [m/s],
+    accelerations [m/s²]; memory: of the material's branches; dissipated, work: (k,) [J] energies taken by
+    dampers and put in."""
 
     time: np.ndarray
     u: np.ndarray
@@ -41,12 +42,29 @@ class LatticeSamples(NamedTuple):
 
 
 class Integrator(MotionMethod[State]):
-    """Takes a system from one state to the next.
+    """An integrator, which advances a system from one state to the next.
 
-    step: [s]; order: declared, of the displacement; adaptive: whether it chooses its steps by their error,
-    unless it is made `fixed`; explicit: whether its steps have a limit of stability; options: names of
-    what else the user may choose. Steps of one length end at times that lie farther from each other than
-    that: a table with more samples than there are steps has no corner to step onto.
+    Parameters
+    ----------
+    system : System
+        Equations of motion.
+    step : float
+        Length of steps, or first length of adaptive ones [s].
+    fixed : bool, default True
+        Whether an adaptive integrator keeps its step.
+
+    Attributes
+    ----------
+    order : int
+        Declared order of accuracy of the displacement.
+    adaptive : bool
+        Whether the integrator can choose its steps by their error.
+    explicit : bool
+        Whether its steps have a limit of stability.
+    options : tuple of str
+        Names of the user's options.
+    kinks : ndarray
+        Times [s] that steps end at; with constant steps kinks farther than a step from their neighbours.
     """
 
     name: ClassVar[str]
@@ -59,42 +77,42 @@ class Integrator(MotionMethod[State]):
     def __init__(self, system: System, step: float, fixed: bool = True):
         self.system, self.step, self.adapts = system, step, not fixed
         gaps = np.diff(system.kinks, prepend=-np.inf, append=np.inf)
-        apart = np.minimum(gaps[:-1], gaps[1:])[: len(system.kinks)]
-        self.kinks = system.kinks if self.adapts else system.kinks[apart > step]
+        distance = np.minimum(gaps[:-1], gaps[1:])[: len(system.kinks)]
+        self.kinks = system.kinks if self.adapts else system.kinks[distance > step]
 
     @classmethod
     def default_step(cls, period: Callable[[], float], limit: StepLimit | None) -> float:
-        """Return the step [s] where none is requested, an adaptive one's first: from the limit of stability
-        where there is one, else from the lowest period [s]; infinite where it finds its first step itself."""
+        """Return the default step [s], the first one of an adaptive integrator: from the limit of stability
+        if any, else from the lowest period [s]; infinite if the integrator computes its first step."""
         return limit.advised if limit is not None else period() / STEPS_PER_PERIOD
 
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit | None:
-        """Return the limit of stability about a displacement (size, 3) [m], of explicit ones."""
+        """Return the limit of stability about a displacement (size, 3) [m], of an explicit integrator."""
         return None
 
     @abstractmethod
     def advance(self, state: State, at_most: float) -> Advance[State]:
-        """Return one step, of `at_most` [s], or one that adapts no longer. Raises StepFailed, or
+        """Return one step of `at_most` [s], of an adaptive integrator perhaps shorter. Raises StepFailed, or
         SingularMatrixError."""
 
     def go(self, state: State, at_most: float) -> Advance[State]:
-        """Return a step that adapts, or steps of one length as near as can be to the integrator's own."""
+        """Return an adaptive step, or steps of one length as close as possible to the integrator's step."""
         if self.adapts:
             return self.advance(state, at_most)
-        left = max(int(np.ceil(at_most / self.step - 1e-6)), 1)
-        whole = abs(at_most / self.step - left) < 1e-6
-        return self.march(state, self.step if whole else at_most / left, left)
+        count = max(int(np.ceil(at_most / self.step - 1e-6)), 1)
+        whole = abs(at_most / self.step - count) < 1e-6
+        return self.march(state, self.step if whole else at_most / count, count)
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
-        """Return steps of the same length [s], at least one and `most` at most, in well under a second.
-        Raises StepFailed for the first of them."""
+        """Return steps of one length [s], at least one and `most` at most, in well under a second. Raises
+        StepFailed if the first one fails."""
         return self.advance(state, step)
 
     def at(self, times: np.ndarray, last: Advance[State]) -> LatticeSamples:
-        """Return the last step's end."""
+        """Return samples at times within the last step; here its end."""
         return LatticeSamples.of(last.state, last.dissipated, last.work)
 
     def settings(self) -> dict[str, Any]:
-        """Return the length of its steps."""
+        """Return the settings for an answer: the length of steps."""
         return {"step": "adaptive" if self.adapts else self.step}

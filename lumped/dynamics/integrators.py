@@ -17,39 +17,56 @@ from sheetbench.errors import BadInput
 INTEGRATORS: dict[str, type[Integrator]] = {
     kind.name: kind for kind in (GeneralisedAlpha, Esdirk, Verlet, Midpoint)
 }
-SHORTEST = 0.25  # share of the undamped explicit step, from which on implicit steps take less time
+SHORTEST = 0.25  # share of the undamped explicit step below which implicit steps take less time
 
 
 def require_integrator(name: str) -> None:
-    """Raise BadInput for a name that is neither an integrator's nor "auto"."""
+    """Raise BadInput for the name of an unknown integrator.
+
+    Parameters
+    ----------
+    name : str
+        A key of `INTEGRATORS`, or "auto".
+
+    Raises
+    ------
+    BadInput
+        If the name is neither an integrator's nor "auto".
+
+    Examples
+    --------
+    >>> import lumped
+    >>> lumped.require_integrator("verlet")
+    """
     if name not in (*INTEGRATORS, AUTO):
         raise BadInput(f"integrator = {name!r}: unknown; choose from {', '.join((*INTEGRATORS, AUTO))}")
 
 
 def resolve_integrator(name: str, system: System, options: Collection[str] = ()) -> tuple[str, str]:
-    """Return the integrator of a run, and why in a sentence where the name is "auto".
+    """Return the integrator of a run, and the reason in a sentence if the name is "auto".
 
-    `esdirk` takes a fifth of the time of `generalised-alpha` at like error (docs/development/performance.md);
-    it has no chains. Where a sheet touches an obstacle and leaves it, its steps are about two of `verlet`'s
-    undamped ones and cost some thirty evaluations of the forces, those of `verlet` four: dampers may make
-    these `SHORTEST` as long as the undamped ones (`docs/contact.md`). options: that it has to take.
-    Raises BadInput where the integrator does not take one.
+    `esdirk` takes a fifth of the time of `generalised-alpha` at equal error
+    (docs/development/performance.md); it has no chains. For a sheet that touches an obstacle and leaves it,
+    an `esdirk` step is about two undamped `verlet` steps long and costs some thirty evaluations of the
+    forces, a `verlet` step four: dampers may shorten `verlet` steps to `SHORTEST` of the undamped ones
+    (`docs/contact.md`). options: options of the run. Raises BadInput for an option that the integrator does
+    not take.
     """
     why = ""
     if name == AUTO:
-        unlike = [one for one in options if one not in Esdirk.options]
+        unsupported = [option for option in options if option not in Esdirk.options]
         name, why = Esdirk.name, "least time at equal error"
         if system.coupling is not None:
             name, why = GeneralisedAlpha.name, f"{why}, with chains"
-        elif unlike and set(options) <= set(GeneralisedAlpha.options):
-            name, why = GeneralisedAlpha.name, f"{why}, that takes {', '.join(unlike)}"
+        elif unsupported and set(options) <= set(GeneralisedAlpha.options):
+            name, why = GeneralisedAlpha.name, f"{why}, that takes {', '.join(unsupported)}"
         elif system.items and set(options) <= set(Verlet.options):
             shorter = 1.0 / step_limit(system, system.prescribed.place(0.0)).share
             if shorter * SHORTEST <= 1.0:
                 name, why = Verlet.name, f"{why}, with obstacles"
             else:
                 why = f"{why}, as dampers make explicit steps {shorter:.2g} times shorter"
-    foreign = [one for one in options if one not in INTEGRATORS[name].options]
+    foreign = [option for option in options if option not in INTEGRATORS[name].options]
     if foreign:
         raise BadInput(f"integrator = {name!r}: does not take {', '.join(foreign)}")
     return name, why

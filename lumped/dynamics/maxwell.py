@@ -1,9 +1,9 @@
-"""Maxwell branches beside every spring in motion: a law that remembers its measure.
+"""Maxwell branches parallel to every spring in motion: a law with memory of its measure.
 
-X = (S, δg) are a spring's elastic stress and the change of its measure (`lumped.springs.laws`). In a step
-branches keep R = w X + c (`scenes.objects.relaxation`), so that the spring has its own law, stiffer,
-beside a constant stress: (1 + Σ a w) S + Σ a c_S. In a stage of a Runge–Kutta method of diagonal γ, which
-takes ẏ = R/τ with y = X − R at its own order,
+X = (S, δg) are a spring's elastic stress and the change of its measure (`lumped.springs.laws`). The branches
+hold R = w X + c in a step (`scenes.objects.relaxation`), so that the spring has a stiffer law and a constant
+stress, (1 + Σ a w) S + Σ a c_S. A stage of a Runge–Kutta method of diagonal γ integrates ẏ = R/τ, y = X − R,
+at the method's order, with
 
     w = 1/(1 + h γ/τ),   c = −w (y₀ + h Σ_j a_ij R_j/τ).
 """
@@ -23,9 +23,9 @@ from sheetbench.scenes.objects.relaxation import BranchStep
 
 
 class Maxwell:
-    """The branches of all springs, in the step or stage `now`; of the instantaneous modulus before any. A
-    state's memory holds the springs' measures one after the other. Immutable: `step` and `stage` return
-    others."""
+    """The branches of all springs, in the step or stage `now`; with the instantaneous modulus before the
+    first. A state's memory holds the springs' measures one after the other. Immutable: `step` and `stage`
+    return new objects."""
 
     def __init__(self, families: Sequence[Family], branches: Branches):
         if any(isinstance(family, DirectionalLinks) for family in families):
@@ -40,51 +40,52 @@ class Maxwell:
         count = len(self.times)
         self.now = branches.begun(np.ones(count), np.zeros((count, 2, ends[-1])))
 
-    def _in(self, now: BranchStep) -> Maxwell:
+    def _with_step(self, now: BranchStep) -> Maxwell:
         other = copy(self)
         other.now = now
         return other
 
     @property
     def gain(self) -> float:
-        """How much of the springs' own law counts."""
+        """Factor 1 + Σ a w of the springs' law."""
         return self.now.gain
 
     def at_rest(self, u: np.ndarray) -> np.ndarray:
-        """Return the memory at displacement u (n, 3) [m] where the branches have relaxed."""
-        return self.branches.at_rest(self._pass(u, np.zeros_like(u), 0.0, self.now.past)[1])
+        """Return the memory of relaxed branches at displacement u (n, 3) [m]."""
+        return self.branches.at_rest(self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)[1])
 
     def step(self, memory: np.ndarray, ahead: float) -> Maxwell:
-        """Return the branches `ahead` [s] after a state with this memory."""
-        return self._in(self.branches.step(memory, ahead))
+        """Return the branches `ahead` [s] after a state with a given memory."""
+        return self._with_step(self.branches.step(memory, ahead))
 
     def stage(self, start: np.ndarray, relaxed: np.ndarray, own: float) -> Maxwell:
         """Return the branches of a stage: start: the step's memory; relaxed: h Σ_j a_ij R_j (b, 2, m); own:
         h γ [s]."""
         weight = 1.0 / (1.0 + own / self.times)
         gone = start[0] - start[1:] + relaxed / self.times[:, None, None]
-        return self._in(self.branches.begun(weight, -weight[:, None, None] * gone))
+        return self._with_step(self.branches.begun(weight, -weight[:, None, None] * gone))
 
     def add_force(self, u: np.ndarray, force: np.ndarray, own: float | None = None) -> float:
-        """Add the springs' force with their branches' to `force` (n, 3) [N]; return their own energy [J].
-        own: how much of their own law counts, `gain` unless given."""
-        return self._pass(u, force, self.gain if own is None else own, self.now.past)[0]
+        """Add the springs' force with their branches' to `force` (n, 3) [N]; return the springs' energy [J],
+        branches excluded. own: factor of the springs' law, `gain` unless given."""
+        return self._add_forces(u, force, self.gain if own is None else own, self.now.past)[0]
 
     def after(self, u: np.ndarray) -> np.ndarray:
-        """The memory at displacement u (n, 3) [m] in the step or stage that was begun."""
-        return self.now.after(self._pass(u, np.zeros_like(u), 0.0, self.now.past)[1])
+        """Return the memory at displacement u (n, 3) [m] in the current step or stage."""
+        return self.now.after(self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)[1])
 
     def add_branch_force(self, u: np.ndarray, memory: np.ndarray, force: np.ndarray) -> None:
         """Add the force of the branches alone with the stresses of a memory."""
-        self._pass(u, force, 0.0, np.tensordot(np.array(self.branches.stiffness), memory[1:, 0], 1))
+        self._add_forces(u, force, 0.0, np.tensordot(np.array(self.branches.stiffness), memory[1:, 0], 1))
 
     def add_mean_force(
         self, before: np.ndarray, middle: np.ndarray, u: np.ndarray, force: np.ndarray
     ) -> None:
-        """Add the force in the middle (n, 3) [m] of a step to u, whose work is that of the mean stresses."""
+        """Add the branches' force of a step to u (n, 3) [m], by their mean stresses at its middle (n, 3) [m];
+        before: the memory at the start."""
         self.add_branch_force(middle, 0.5 * (before + self.after(u)), force)
 
-    def _pass(
+    def _add_forces(
         self, u: np.ndarray, force: np.ndarray, own: float, past: np.ndarray
     ) -> tuple[float, np.ndarray]:
         energy, x = 0.0, np.empty((2, len(past)))
@@ -96,9 +97,9 @@ class Maxwell:
         return energy, x
 
     def stresses(self, u: np.ndarray, own: float, past: float) -> list[np.ndarray]:
-        """Return the stresses of every family that its tangent takes: so much of their own at u, and of
-        what is constant in the step."""
-        _, x = self._pass(u, np.zeros_like(u), 0.0, self.now.past)
+        """Return the stresses of every family for its tangent: own × the springs' stress at u plus past × the
+        branches' constant stress in the step."""
+        _, x = self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)
         both = own * x[0] + past * self.now.past
-        each = zip(self._families, self._places, strict=True)
-        return [both[place].reshape(len(f), *(f.measures,) * (f.measures > 1)) for f, place in each]
+        pairs = zip(self._families, self._places, strict=True)
+        return [both[place].reshape(len(f), *(f.measures,) * (f.measures > 1)) for f, place in pairs]

@@ -35,9 +35,18 @@ from sheetbench.scenes.meaning.motion import kinks
 
 @dataclass(frozen=True)
 class State:
-    """Time [s], displacement, velocity and acceleration (size, 3), the last one beside that of what is
-    prescribed; multiplier rows of u hold λ. memory: of
-    the material's branches, where it has some (`lumped.dynamics.maxwell`)."""
+    """State of a system in motion.
+
+    Parameters
+    ----------
+    time : float
+        Time [s].
+    u, v, a : ndarray of shape (size, 3)
+        Displacement [m], velocity [m/s] and acceleration [m/s²] without the prescribed one; multiplier rows
+        of u hold λ.
+    memory : ndarray, optional
+        Memory of the material's branches (`lumped.dynamics.maxwell`).
+    """
 
     time: float
     u: np.ndarray
@@ -47,12 +56,24 @@ class State:
 
 
 class System:
-    """Forces, mass and constraints of a scene in motion. mass: of every lumped mass, (n,) [kg], instead of
-    its share of the sheet's and the payloads'.
+    """Forces, mass and constraints of a scene in motion.
 
-    shared_mass: whether neighbours on the lattice share some, of bodies with moments of inertia. Forces are
-    computed in arrays that it keeps (`forces`), so a system is for one thread at a time; what it answers
-    does not depend on the order of calls.
+    Forces are computed in arrays that the system keeps (`forces`), so it is for one thread at a time; results
+    do not depend on the order of calls.
+
+    Parameters
+    ----------
+    scene : Scene
+        Scene of the motion.
+    problem : Problem
+        Lattice of the scene under its supports and loads.
+    mass : ndarray of shape (n,), optional
+        Lumped masses [kg]; by default their shares of the sheet and the payloads.
+
+    Attributes
+    ----------
+    shared_mass : bool
+        Whether neighbours on the lattice share mass, of bodies with moments of inertia.
     """
 
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
@@ -68,14 +89,14 @@ class System:
         self.natural = problem.assembly.natural
         branches = scene.material.branches
         self.maxwell = Maxwell(self.assembly.springs, branches) if branches.times else None
-        # whether the compiled loops over `packing` have the springs' forces
+        # whether the compiled loops over `packing` compute the springs' forces
         self.packed = self.maxwell is None and self.natural is None and self.assembly.conservative
         self.packing = pack(lattice, self.assembly.springs if self.packed else (), self.damping.dampers)
         room, damping = scratch(self.packing), self.damping
         self.forces = typed(MovingForces(self.packing, room, damping.rate, damping.drag))
         mass_blocks = np.zeros((self.assembly.pattern.blocks, 3, 3))
-        own = self.assembly.pattern.diagonal[: lattice.mass_count]
-        mass_blocks[own] = self.lattice_mass[:, None, None] * np.eye(3)
+        diagonal = self.assembly.pattern.diagonal[: lattice.mass_count]
+        mass_blocks[diagonal] = self.lattice_mass[:, None, None] * np.eye(3)
         bodies = rotary_masses(scene, lattice)
         self._bodies = self.assembly.pattern.slots(*pairs_of(bodies)), bodies.data
         self.shared_mass = bool(len(bodies.data))
@@ -98,13 +119,13 @@ class System:
 
     @property
     def working(self) -> bool:
-        """Whether some loads have no potential: they follow the sheet, or change over time, as a natural
-        state may."""
+        """Whether loads follow the sheet or change over time, or a natural state changes, so that there is no
+        potential."""
         return not self.problem.loads.potential or self.growing is not None
 
     @property
     def resists(self) -> bool:
-        """Whether anything takes energy, but for branches."""
+        """Whether there is dissipation other than by branches."""
         return self.damping.present or any(item.resists for item in self.items)
 
     @property
@@ -113,14 +134,14 @@ class System:
         return bool(self.algebraic.any())
 
     def drive(self, time: float) -> Drive:
-        """The actuators' commands at a time."""
+        """Return the actuators' commands at a time."""
         return Drive(1.0, time)
 
     def internal(
         self, u: np.ndarray, v: np.ndarray, time: float, elastic: bool = True, damped: bool = True
     ) -> tuple[float, float, np.ndarray]:
-        """Elastic energy, power taken by the dampers, and both their forces or one of them: springs with
-        their branches, actuators with their multipliers, items."""
+        """Return elastic energy [J], power taken by the dampers [W] and the internal force (size, 3) [N],
+        elastic, damping or both, of springs with branches, actuators with multipliers, and items."""
         energy, force, at = 0.0, np.zeros_like(u), (u, self.drive(time))
         packed = elastic and self.packed
         if elastic and self.maxwell is not None:
@@ -139,16 +160,16 @@ class System:
 
     @cached_property
     def kinks(self) -> np.ndarray:
-        """Times at which something changes its course, sorted [s]."""
+        """Times [s] at which a load, command or motion changes its slope, sorted."""
         return np.array(kinks(self.scene))
 
     def damping_force(self, u: np.ndarray, v: np.ndarray, time: float) -> tuple[float, np.ndarray]:
-        """Power taken and damping force."""
+        """Return the power taken [W] and the damping force (size, 3) [N]."""
         _, power, force = self.internal(u, v, time, elastic=False)
         return power, force
 
     def power(self, state: State) -> float:
-        """Power [W] that goes into dampers and branches."""
+        """Return the power [W] that goes into dampers and branches."""
         power, _ = self.damping_force(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             force = np.zeros_like(state.u)
@@ -157,23 +178,24 @@ class System:
         return power
 
     def loads(self, times: Sequence[float]) -> np.ndarray:
-        """Loads at times if they change, those that do not follow the sheet, (k or 1, n, 3) [N]."""
+        """Return the loads that do not follow the sheet at times [s], (k, n, 3) [N], (1, n, 3) if
+        constant."""
         dead = self.problem.loads.dead
         if not self.working:
             return dead[None].copy()
         return np.array([self.external(dead, time) for time in times])
 
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
-        """External force."""
+        """Return the external force (size, 3) [N]."""
         return self.problem.loads.force(u, time)
 
     def unbalanced(self, u: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
-        """f_ext − f_int − f_damp − Jᵀλ; on multiplier rows −Φ."""
+        """Return f_ext − f_int − f_damp − Jᵀλ; on multiplier rows −Φ."""
         return self.external(u, time) - self.internal(u, v, time)[2]
 
     def average_elastic(self, start: State, end: np.ndarray, time: float) -> np.ndarray:
-        """Internal force whose work from `start` to the displacement `end` is the energy stored or, by
-        branches, taken; commands and natural state as at `time`."""
+        """Return the internal force whose work from `start` to the displacement `end` is the energy stored
+        and, by branches, dissipated; commands and natural state as at `time`."""
         force = self.assembly.at(time=time).average_force(start.u, end)
         if self.maxwell is not None and start.memory is not None:
             self.maxwell.add_mean_force(start.memory, 0.5 * (start.u + end), end, force)
@@ -185,7 +207,7 @@ class System:
         return force
 
     def ends(self, start: State, middle: float) -> tuple[Placed, Drive]:
-        """Where a step begins, and the commands at its end."""
+        """Return displacement and commands at a step's start, and the commands at its end."""
         return (start.u, self.drive(start.time)), self.drive(2.0 * middle - start.time)
 
     def matrix(
@@ -198,12 +220,12 @@ class System:
         stiffness: float,
         ends: tuple[State, np.ndarray] | None = None,
     ) -> np.ndarray:
-        """Blocks of mass × M + damping × C + stiffness × K at a state; the constraints count once. How C
-        changes with the shape is left out: it is unsymmetric, of the order of the turn in a step. ends: of a
-        step of which the items have the mean force's derivative by its end."""
-        own = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
-        both = own + damping * self.damping.time  # dampers in proportion stand where the springs do
-        share, stresses = own / both if both else 0.0, None
+        """Return the blocks of mass × M + damping × C + stiffness × K at a state; constraints count once. The
+        change of C with the shape is left out: it is unsymmetric, of the order of the turn in a step. ends:
+        start and end of a step, for which items have the derivative of the mean force by its end."""
+        elastic = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
+        both = elastic + damping * self.damping.time  # proportional dampers are parallel to the springs
+        share, stresses = elastic / both if both else 0.0, None
         if self.maxwell is not None and both:
             stresses = tuple(self.maxwell.stresses(u, share, stiffness / both))
         inertia = mass * self.lattice_mass + damping * self.damping.rate
@@ -226,8 +248,7 @@ class System:
         return blocks
 
     def within(self, state: State, ahead: float = 0.0) -> System:
-        """Return the equations in a step of second order from a state, `ahead` [s] of it, as the branches
-        have it."""
+        """Return the equations with the branches of a step of second order, `ahead` [s] after a state."""
         if self.maxwell is None or state.memory is None:
             return self
         return self.with_branches(self.maxwell.step(state.memory, ahead))
@@ -239,33 +260,33 @@ class System:
         return other
 
     def relaxed(self, before: State, after: State) -> tuple[State, float]:
-        """The state at the end of a step of second order with its memory, and the energy [J] that the
-        branches took in it."""
+        """Return the state at the end of a step of second order with its memory, and the energy [J] that the
+        branches dissipated in it."""
         if self.maxwell is None or before.memory is None:
             return after, 0.0
         memory = self.maxwell.step(before.memory, after.time - before.time).after(after.u)
         return replace(after, memory=memory), self.maxwell.branches.dissipated(before.memory, memory)
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
-        """Force on the free unknowns that have mass."""
+        """Return the force on the free unknowns that have mass."""
         reduced: np.ndarray = self.moving_part.T @ force.ravel()
         return reduced
 
     def expand(self, unknowns: np.ndarray) -> np.ndarray:
-        """Displacement (size, 3) of the free unknowns that have mass; multiplier rows zero."""
+        """Return the displacement (size, 3) of the free unknowns that have mass; multiplier rows are zero."""
         return (self.moving_part @ unknowns).reshape(-1, 3)
 
     def momentum(self, v: np.ndarray) -> np.ndarray:
-        """M v, (size, 3)."""
+        """Return M v, (size, 3)."""
         return product(self.mass_rows, v.ravel()).reshape(-1, 3)
 
     def accelerate(self, force: np.ndarray) -> np.ndarray:
-        """T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
+        """Return T M⁻¹ Tᵀ f, (size, 3) [m/s²]."""
         return self.expand(self.solve_mass(self.reduce(force)))
 
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
-        """Kinetic, elastic and potential energy [J], of which only constant dead loads have the last; and
-        M a + f_int + f_damp − f_ext, (size, 3): what supports and actuators exert on their masses."""
+        """Return kinetic, elastic and potential energy [J], the potential of constant dead loads alone, and
+        the force M a + f_int + f_damp − f_ext, (size, 3) [N], of supports and actuators on their masses."""
         elastic, _, force = self.within(state).internal(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             elastic += self.maxwell.branches.stored(state.memory)
@@ -277,7 +298,7 @@ class System:
         return energies, self.momentum(state.a) + force - self.external(state.u, state.time)
 
     def exerted(self, state: State) -> np.ndarray:
-        """What supports and actuators exert on their masses, (size, 3)."""
+        """Return the force of supports and actuators on their masses, (size, 3) [N]."""
         return self.balance(state)[1]
 
 

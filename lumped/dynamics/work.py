@@ -7,7 +7,7 @@ import numpy as np
 
 from lumped.dynamics.system import State, System
 
-NATURAL_STEP = 1e-3  # of a natural state, for the difference of energies
+NATURAL_STEP = 1e-3  # change of a natural state for the difference quotient of energies
 
 
 def work(system: System, before: State, after: State) -> float:
@@ -28,33 +28,33 @@ def work(system: System, before: State, after: State) -> float:
 
 
 def imposed_work(system: System, before: State, after: State) -> float:
-    """Return the work [J] of commands and natural states in a step, at its start until its middle and at its
-    end from there on, and what the masses gain that move as prescribed."""
+    """Return the work [J] of commands and natural states in a step, with the start's displacement in its
+    first half and the end's in its second, and the gain of kinetic energy of prescribed masses."""
     middle, done = 0.5 * (before.time + after.time), 0.0
     for u, then, now in ((before.u, before.time, middle), (after.u, middle, after.time)):
         done += natural_work(system, u, then, now)
         if system.coupling is not None:
             done += system.coupling.command_work(u, system.drive(then), system.drive(now))
     if system.prescribed.moving:
-        done += kinetic_of_placed(system, after) - kinetic_of_placed(system, before)
+        done += prescribed_kinetic(system, after) - prescribed_kinetic(system, before)
     return done
 
 
 def kinetic_of(system: System, rate: np.ndarray) -> float:
-    """Return the kinetic energy [J] of what is prescribed, at its velocities (size, 3) [m/s]."""
+    """Return the kinetic energy [J] at prescribed velocities (size, 3) [m/s]."""
     return 0.5 * float(np.vdot(rate, system.momentum(rate)))
 
 
-def kinetic_of_placed(system: System, state: State) -> float:
-    """Return the kinetic energy [J] of what is prescribed, whose gain is work done on the masses: all but
-    that of the free unknowns, which is separate since Tᵀ M ġ = 0."""
+def prescribed_kinetic(system: System, state: State) -> float:
+    """Return the kinetic energy [J] of the prescribed motion, whose gain is work done on the masses: the
+    total less the free unknowns' kinetic energy, a separate sum since Tᵀ M ġ = 0."""
     momentum = system.momentum(state.v)
     free = system.reduce(momentum)
     return 0.5 * float(np.vdot(state.v, momentum) - free @ system.solve_mass(free))
 
 
 def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) -> float:
-    """Return the work [J] of what items are fixed to in a step of the conserving midpoint rule."""
+    """Return the work [J] of the bodies of items in a step of the conserving midpoint rule."""
     done, (since, drive) = 0.0, system.ends(start, middle)
     rate = (end - start.u) / (2.0 * (middle - start.time))
     for item in system.items:
@@ -66,7 +66,7 @@ def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) 
 
 
 def obstacle_power(system: System, state: State) -> float:
-    """Return the power [W] of what items are fixed to, as it moves."""
+    """Return the power [W] of the moving bodies of items."""
     at = state.u, system.drive(state.time)
     return float(sum(one.exerted(at, state.v).sum(0) @ one.velocity(state.time) for one in system.items))
 
@@ -80,8 +80,7 @@ def natural_work(system: System, u: np.ndarray, then: float, now: float) -> floa
 
 
 def natural_power(system: System, u: np.ndarray, time: float, before: bool = False) -> float:
-    """Return its power [W] from a moment on, or until then: of a difference that is exact but for third
-    powers of the change."""
+    """Return the power [W] of a natural state just after a time, or just before, by a central difference."""
     if (state := system.growing) is None or not (rate := state.rates(time, before)).any():
         return 0.0
     at, step = state.factors(time), NATURAL_STEP / np.abs(rate).max()

@@ -1,1 +1,1 @@
-"""Springs fitted to data, by way of the lattice's own answers, and the door to every calibration."""
+"""Springs fitted to data by the lattice's answers, and the function `calibrate` for every method."""

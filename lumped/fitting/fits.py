@@ -1,15 +1,15 @@
 """Springs fitted to data: fit-static to displacement fields, fit-modal to natural frequencies.
 
 Both start from the springs of `consistent` and vary the logarithms of the spring constants (positive links)
-and the area springs as shares of the axial ones; layer distance, kz, the edges' twist and the strain springs
-that share the stretching with the axial links, whose sum is what data see, are kept; on a graded grid the
-cells' springs of a family grow alike. Gauss–Newton with exact Jacobians: of displacements from
-`lumped.sensitivity`; of frequencies from Rayleigh's quotient, dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ). Residuals are
-relative: displacements to the largest of their field, frequencies to themselves. A pull towards the start
-(`prior`, in units of the residuals) keeps what the data do not see where it was; the report says which
-combinations those are. fit-modal takes Gregory's masses, which have most of the frequencies' error away
-before a spring is touched: with tributary masses the fit bought frequencies with cross links fourteen times
-too stiff in shear, and was 28 % off in statics.
+and the area springs as shares of the diagonal ones; layer distance, kz, the edges' twist and the strain
+springs that share the stretching with the axial links, of which data determine the sum alone, are kept; on a
+graded grid the cells' springs of a family are scaled equally. Gauss–Newton with exact Jacobians: of
+displacements from `lumped.gradient`; of frequencies from Rayleigh's quotient, dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M
+φ). Residuals are relative: displacements to the largest of their field, frequencies to themselves. A pull
+towards the start (`prior`, in units of the residuals) keeps combinations that the data do not determine; the
+report names them. fit-modal has Gregory's masses, which remove most of the frequencies' error before a spring
+is changed: with tributary masses the fit made cross links fourteen times too stiff in shear, and was 28 % off
+in statics.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from lumped.calibration.consistent import consistent
 from lumped.calibration.report import report
 from lumped.fitting.identifiability import Identifiability, identifiability
 from lumped.lattice import Grid
-from lumped.sensitivity import sensitivity
+from lumped.sensitivity import Differentiable
 from lumped.spring_constants import EDGES_OWN, RIMS_OWN
 from lumped.vibration import frequency_slopes
 from sheetbench.answers.table import PERCENT, Table
@@ -41,26 +41,43 @@ FIXED_CONSTANTS = ("vertical", "layer_distance", "stretch", *EDGES_OWN, *RIMS_OW
 
 @dataclass(frozen=True)
 class StaticTarget:
-    """A scene and the mid-surface displacement (n, 3) [m] wanted at plan points (n, 2) [m]; prior: the pull
-    towards where a fit starts."""
+    """A scene and its target displacement of the mid-surface at plan points.
 
-    prior: ClassVar[float] = 1e-3
+    Parameters
+    ----------
+    scene : Scene
+        Scene of the data.
+    points : ndarray of shape (n, 2)
+        Plan points [m].
+    displacement : ndarray of shape (n, 3)
+        Target displacement [m].
+    """
+
+    prior: ClassVar[float] = 1e-3  # weight of the pull towards the start of a fit
 
     scene: Scene
     points: np.ndarray
     displacement: np.ndarray
 
     def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Return relative misses (m,) of these springs, and their derivatives (m,) by each constant."""
+        """Return the springs' relative misses (m,), and their derivatives (m,) by each constant."""
         scale = np.abs(self.displacement).max() * np.sqrt(len(self.points))
-        found = sensitivity(self.scene, springs, names, self.points)
-        slopes = {name: (found.derivatives[name] / scale).ravel() for name in names}
-        return ((found.displacement - self.displacement) / scale).ravel(), slopes
+        displacement, slopes = Differentiable(self.scene, springs).at_points(self.points, names)
+        slopes = {name: (slope / scale).ravel() for name, slope in slopes.items()}
+        return ((displacement - self.displacement) / scale).ravel(), slopes
 
 
 @dataclass(frozen=True)
 class ModalTarget:
-    """A scene and the lowest natural frequencies (n,) [Hz] wanted of it, in order."""
+    """A scene and its lowest target frequencies.
+
+    Parameters
+    ----------
+    scene : Scene
+        Scene of the data.
+    frequencies : ndarray of shape (n,)
+        Target frequencies [Hz], rising.
+    """
 
     prior: ClassVar[float] = 1e-1
 
@@ -68,7 +85,7 @@ class ModalTarget:
     frequencies: np.ndarray
 
     def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """As of displacements."""
+        """Return the springs' relative misses (n,), and their derivatives (n,) by each constant."""
         frequencies, rates = frequency_slopes(self.scene, springs, names, len(self.frequencies))
         slopes = {name: rates[name] / self.frequencies for name in names}
         return frequencies / self.frequencies - 1.0, slopes
@@ -79,7 +96,7 @@ Target = StaticTarget | ModalTarget
 
 @dataclass(frozen=True)
 class FitRow:
-    """A spring that was fitted; width: half of its 95 % interval, None where the data do not see it."""
+    """A spring that was fitted; width: half of its 95 % interval, None if the data do not determine it."""
 
     spring: str
     share: str
@@ -88,29 +105,29 @@ class FitRow:
 
 @dataclass(frozen=True, repr=False)
 class FittedCalibration(Calibration):
-    """A calibration from data: residual: largest relative miss of the targets; identifiability: of the
-    springs varied, in their logarithms (area springs: in shares of the axial stiffness)."""
+    """A calibration from data. residual: largest relative miss of the targets; identifiability: of the varied
+    springs, in their logarithms (area springs: in shares of the diagonal's stiffness)."""
 
     residual: float = 0.0
     identifiability: Identifiability | None = None
 
     def document(self) -> dict[str, Any]:
-        """The document of a calibration, with what the data tell of each spring: half widths of the 95 %
-        intervals as shares of the spring, of area springs as shares of the diagonal's stiffness."""
-        known = self.identifiability
+        """Return the document of a calibration, with the springs' 95 % intervals: half widths as shares of
+        the spring, of area springs as shares of the diagonal's stiffness."""
+        report = self.identifiability
         fit = {
             "residual": self.residual,
-            "half_widths": known.half_widths if known else {},
-            "singular_values": known.singular_values if known else [],
+            "half_widths": report.half_widths if report else {},
+            "singular_values": report.singular_values if report else [],
         }
         return {**super().document(), "fit": fit}
 
     def tables(self) -> tuple[Table, ...]:
-        known = self.identifiability.half_widths if self.identifiability else {}
+        widths = self.identifiability.half_widths if self.identifiability else {}
         shares = {"area": "of the diagonal", "mid_area": "of the diagonal"}
         rows = [
             FitRow(name, shares.get(name, "of itself"), width if np.isfinite(width) else None)
-            for name, width in known.items()
+            for name, width in widths.items()
         ]
         caption = "What the data tell of each spring: 95 % intervals"
         return (*super().tables(), Table.of(FitRow, rows, caption, "fit"))
@@ -129,9 +146,9 @@ def fitted(
     targets: Sequence[Target] = (),
     grading: Graded = 0.0,
 ) -> FittedCalibration:
-    """Springs whose answers come nearest to those of the targets, from those of `consistent` on.
+    """Return springs fitted to targets of one kind, started from springs of `consistent`.
 
-    Raises BadInput without targets, and for other kinds of them.
+    Raises BadInput without targets, and for targets of another kind.
     """
     from scipy.optimize import least_squares
 
@@ -140,8 +157,8 @@ def fitted(
     first = consistent(sheet, material, grid, layer_distance, grading=grading)
     if kind is ModalTarget:
         first = replace(first, masses="gregory")
-    every = first.constants.names()
-    names = [name for name in every if name.removesuffix("_x").removesuffix("_y") not in FIXED_CONSTANTS]
+    nonzero = first.constants.names()
+    names = [name for name in nonzero if name.removesuffix("_x").removesuffix("_y") not in FIXED_CONSTANTS]
     start = {name: first.constants.value(name) for name in names}
     signed = {name for name in names if name in ("area", "mid_area")}
     unit = first.constants.value("diagonal")
@@ -155,7 +172,7 @@ def fitted(
 
     @lru_cache(maxsize=1)
     def at(change: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
-        """Relative misses, and their derivatives by the changes."""
+        """Return the relative misses, and their derivatives by the changes."""
         calibration = changed(change)
         misses, rates = zip(*(target.compare(calibration, names) for target in targets), strict=True)
         slopes = []
@@ -173,8 +190,8 @@ def fitted(
         max_nfev=60,
     )
     misses, slopes = at(tuple(best.x))
-    known = identifiability(names, slopes, misses) if len(misses) > len(names) else None
-    warnings = known.warnings if known else ("too few data for intervals of the springs",)
-    each = each_cell(sheet, material, first.grid, first.grading)
-    plain = replace(report(method, each, changed(best.x).constants, warnings), masses=first.masses)
-    return FittedCalibration(**vars(plain), residual=float(np.abs(misses).max()), identifiability=known)
+    intervals = identifiability(names, slopes, misses) if len(misses) > len(names) else None
+    warnings = intervals.warnings if intervals else ("too few data for intervals of the springs",)
+    grid_cells = each_cell(sheet, material, first.grid, first.grading)
+    plain = replace(report(method, grid_cells, changed(best.x).constants, warnings), masses=first.masses)
+    return FittedCalibration(**vars(plain), residual=float(np.abs(misses).max()), identifiability=intervals)

@@ -1,11 +1,11 @@
-"""What data can tell about the parameters fitted to them: singular values, intervals, and what stays unknown.
+"""Identifiability of parameters fitted to data: singular values, intervals, and undetermined combinations.
 
-With residuals r (m,) at the fit, and their Jacobian J (m, n) with respect to the parameters scaled to order
-one (here logarithms, or values over a scale), the covariance is s² (Jᵀ J)⁻¹, s² = r·r/(m − n), and a 95 %
-interval ± t_{0.975, m − n} times the standard deviation. Where the residuals' standard deviation σ is given
-the interval is ± 1.96 times that of max(s, σ); with m = n there is one then alone. A singular value of J
-below THRESHOLD of the largest is a combination of parameters that the data do not see; the parameters in it
-are named.
+The fit has residuals r (m,) and their Jacobian J (m, n) with respect to the parameters scaled to order one
+(logarithms, or values over a scale). The covariance is s² (Jᵀ J)⁻¹, s² = r·r/(m − n), and a 95 % interval
+± t_{0.975, m − n} times the standard deviation. If the residuals' standard deviation σ is given, the interval
+is ± 1.96 times the standard deviation for max(s, σ); m = n has an interval only then. A singular value of J
+below THRESHOLD of the largest is a combination of parameters that the data do not determine; the parameters
+in it are named.
 Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 """
 
@@ -18,16 +18,25 @@ import numpy as np
 
 from sheetbench.errors import BadInput
 
-THRESHOLD = 1e-3  # of the largest singular value: below it a combination counts as not seen
+THRESHOLD = 1e-3  # of the largest singular value: below it a combination counts as undetermined
 CORRELATED = 0.98  # |correlation| of two parameters from which on the data cannot distinguish them
 CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True)
 class Identifiability:
-    """singular_values: (n,) of the scaled Jacobian; half_widths: parameter → half width of its 95 % interval
-    in the scaled parameter, inf where the data do not see it, nan where m = n and σ is not known; warnings:
-    sentences."""
+    """Singular values, intervals and undetermined combinations of fitted parameters.
+
+    Parameters
+    ----------
+    singular_values : ndarray of shape (n,)
+        Singular values of the scaled Jacobian, falling.
+    half_widths : dict of str to float
+        Half width of each scaled parameter's 95 % interval, inf if the data do not determine it, nan if there
+        are as many residuals as parameters and their deviation is not given.
+    warnings : tuple of str
+        Sentences about undetermined and correlated parameters.
+    """
 
     threshold: ClassVar[float] = THRESHOLD
 
@@ -39,17 +48,47 @@ class Identifiability:
 def identifiability(
     names: list[str], jacobian: np.ndarray, residuals: np.ndarray, deviation: float = 0.0
 ) -> Identifiability:
-    """Of parameters whose scaled Jacobian (m, n) and residuals (m,) at the fit are given; deviation: the
-    residuals' standard deviation, 0 where it is not known.
+    """Return singular values, intervals and undetermined combinations of fitted parameters.
 
-    Raises BadInput where there are fewer residuals than parameters.
+    Parameters
+    ----------
+    names : list of str
+        Names of the n parameters.
+    jacobian : ndarray of shape (m, n)
+        Derivatives of the residuals by the parameters scaled to order one, at the fit.
+    residuals : ndarray of shape (m,)
+        Residuals at the fit.
+    deviation : float, default 0
+        Standard deviation of the residuals, 0 if unknown.
+
+    Returns
+    -------
+    Identifiability
+        Singular values, half widths of the 95 % intervals and warnings.
+
+    Raises
+    ------
+    BadInput
+        If there are fewer residuals than parameters.
+
+    Notes
+    -----
+    Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1 and 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import lumped
+    >>> jacobian, residuals = np.array([[1.0], [1.0], [1.0]]), np.array([0.1, -0.1, 0.0])
+    >>> lumped.identifiability(["young"], jacobian, residuals).half_widths["young"].__round__(3)
+    0.248
     """
     m, n = jacobian.shape
     if m < n:
         raise BadInput(f"{m} residuals cannot determine {n} parameters")
     _, singular, directions = np.linalg.svd(jacobian, full_matrices=False)
-    seen = singular > THRESHOLD * singular[0]
-    spread = (directions[seen] / singular[seen, None]).T  # (n, seen)
+    determined = singular > THRESHOLD * singular[0]
+    spread = (directions[determined] / singular[determined, None]).T  # (n, determined)
     covariance = spread @ spread.T
     from scipy.special import ndtri, stdtrit
 
@@ -59,21 +98,21 @@ def identifiability(
     else:
         reach = float(stdtrit(m - n, 0.5 + CONFIDENCE / 2.0)) * scatter if m > n else np.nan
 
-    warnings, unseen = [], np.zeros(n, dtype=bool)
-    for direction in directions[~seen]:
+    warnings, undetermined = [], np.zeros(n, dtype=bool)
+    for direction in directions[~determined]:
         members = np.abs(direction) > 0.1
-        unseen |= members
+        undetermined |= members
         names_in = ", ".join(name for name, member in zip(names, members, strict=True) if member)
         warnings.append(
             f"the data do not see a combination of {names_in}: changed together they leave what was measured "
             "as it is; seek fewer, or measure what distinguishes them"
         )
     size = np.sqrt(np.diag(covariance))
-    known = np.where(unseen, 0.0, size)
-    scale = np.outer(known, known)
+    deviations = np.where(undetermined, 0.0, size)
+    scale = np.outer(deviations, deviations)
     correlation = np.divide(covariance, scale, out=np.zeros_like(scale), where=scale > 0.0)
     for i, j in np.argwhere(np.tril(np.abs(correlation), -1) > CORRELATED):
         shown = f"{correlation[i, j]:+.3f}".replace("-", "−")
         warnings.append(f"the data cannot tell {names[j]} from {names[i]} (correlation {shown})")
-    widths = np.where(unseen, np.inf, reach * size)
+    widths = np.where(undetermined, np.inf, reach * size)
     return Identifiability(singular, dict(zip(names, widths.tolist(), strict=True)), tuple(warnings))

@@ -1,4 +1,4 @@
-"""All calibration methods by name, the fitted ones too, and the one door to them."""
+"""All calibration methods by name, including fits to data, and the function `calibrate` that calls them."""
 
 from __future__ import annotations
 
@@ -36,14 +36,46 @@ def calibrate(
     grading: Graded = 0.0,
     cells: Cells | CellSection | None = None,
 ) -> Calibration:
-    """Springs of a grid for a sheet of this material, by a named method.
+    """Return springs of a grid for a sheet and its material, by a named method.
 
-    grid: masses along the shorter side, (nx, ny) or (nx, ny, layers), see `sheetbench.scenes.objects.grid`.
-    k [N/m] and layer_distance [m] are for the methods that take them; the fitted methods need targets.
-    grading: how much smaller the cells are at the edges, 0 to 1 (`lumped.grid_lines`). cells: what each is
-    made of, where they differ. Raises BadInput for an
-    unknown method, a grid too small, an option that the method does not take or that is out of its bounds.
+    Parameters
+    ----------
+    sheet : Sheet
+        Length, width and thickness.
+    material : Material
+        Young's modulus, Poisson's ratio and density, or fibres, or a law of rubber.
+    grid : int or sequence of int, default 9
+        Masses along the shorter side, (nx, ny) or (nx, ny, layers).
+    method : str, default "consistent"
+        Name of a method, a key of `CALIBRATIONS`.
+    k : float, optional
+        Spring constant [N/m], for methods that take it.
+    layer_distance : float, optional
+        Distance of neighbouring layers [m], for methods that take it.
+    targets : sequence of StaticTarget or ModalTarget, optional
+        Data that the springs of "fit-static" and "fit-modal" are fitted to.
+    grading : float or Grading, default 0
+        Grading of the grid's lines, 0 (equal cells) to 1 (`lumped.grid_lines`).
+    cells : Cells or CellSection, optional
+        Constants or sections of unequal cells (`sections_of`).
 
+    Returns
+    -------
+    Calibration
+        Spring constants [N/m], layer distance [m], and a report of the moduli that they meet.
+
+    Raises
+    ------
+    BadInput
+        If the method is unknown or has no springs for the grid, the grid is too small, or an option is out of
+        its bounds or not one of the method's.
+
+    Notes
+    -----
+    The methods and their sources are in `docs/calibration.md` and `docs/theory.md`.
+
+    Examples
+    --------
     >>> import lumped
     >>> from sheetbench.scenes import load
     >>> scene = load("two-edges-clamped")
@@ -57,10 +89,12 @@ def calibrate(
     options = {name: value for name, value in requested.items() if value is not None}
     for name, value in options.items():
         if name not in CALIBRATIONS[method].takes:
-            others = " and ".join(f"'{other}'" for other, one in CALIBRATIONS.items() if name in one.takes)
+            others = " and ".join(
+                f"'{other}'" for other, entry in CALIBRATIONS.items() if name in entry.takes
+            )
             unit = f" {UNITS[name]}" if name in UNITS else ""
-            given = "" if name in ("targets", "cells") else f"{name} = {value:g}{unit}: "
-            raise BadInput(f"{given}calibration '{method}' takes no {name}; {name} goes with {others}")
+            prefix = "" if name in ("targets", "cells") else f"{name} = {value:g}{unit}: "
+            raise BadInput(f"{prefix}calibration '{method}' takes no {name}; {name} goes with {others}")
         if name in UNITS:
             require_positive(name, value, UNITS[name])
     with one_blas_thread():

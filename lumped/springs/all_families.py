@@ -1,9 +1,9 @@
-"""The springs of a lattice: made of a spring set, and called all at once.
+"""The springs of a lattice: built from a spring set, and called all at once.
 
-A call from Python costs microseconds, as much as a small lattice's springs do; so those with an energy have
-one compiled call, not one a family. Its arrays always are of the same kinds, empty where a lattice has no
-such springs: links, the layers' cells, the mid-surface's cells, upright faces. The loops themselves are each
-family's own; here they release the interpreter's lock. Springs without an energy are added to what it gives.
+A call from Python costs microseconds, as much as a small lattice's springs do; so springs with an energy have
+one compiled call, not one a family. Its arrays are always links, the layers' cells, the mid-surface's cells
+and upright faces, empty if a lattice has none. Each family has its loops; the calls of this module release
+the interpreter's lock. Springs without an energy are added to the result.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ from sheetbench.scenes.objects.springs import DamperSet
 
 
 class SpringArrays(NamedTuple):
-    """The springs of a lattice that have an energy, and where their tangent's blocks are: their number;
-    `MassPattern.mirror`; each mass's block with itself (n,)."""
+    """The springs of a lattice that have an energy, and the places of their tangent's blocks. blocks: number
+    of blocks; mirror: `MassPattern.mirror`; diagonal: (n,) each mass's block with itself."""
 
     links: LinkArrays
     layers: CellArrays
@@ -46,8 +46,9 @@ class SpringArrays(NamedTuple):
 
 
 class Survey(NamedTuple):
-    """energies: of the springs under each name in the spring set [J]; strain: the largest relative change of
-    length of the links in a layer; stretch: of their energy that of the layers' mean stretch [J]."""
+    """Energies and strain of springs. energies: [J] by the springs' name in the spring set; strain: the
+    largest relative change of length of the links in a layer; stretch: [J] the part of their energy by the
+    layers' mean stretch."""
 
     energies: dict[str, float]
     strain: float
@@ -62,9 +63,9 @@ NUMBERS = np.array([NAMES.index(name) for name, *_ in STEPS])
 
 
 class AllFamilies:
-    """Families of springs together: links, cells of the layers and of the mid-surface, upright faces, empty
-    where there are none, then those without an energy. Displacements and forces are (n, 3) [m], [N]; stresses
-    as `SpringArrays`."""
+    """All springs of a lattice: links, cells of the layers and of the mid-surface, upright faces, each
+    perhaps empty, then springs without an energy. Displacements and forces are (n, 3) [m], [N]; stresses are
+    in the order of `SpringArrays`."""
 
     def __init__(self, families: Sequence[Family], pattern: MassPattern):
         self.families = (*families, *[NO_CELLS] * (4 - len(families)))
@@ -75,7 +76,7 @@ class AllFamilies:
         self.springs = typed(SpringArrays._make([*arrays, *where]))
         self.all_links = [family for family in self.families if isinstance(family, Links)]
         self.links, self._pattern, self.conservative = self.all_links[0], pattern, not self._others
-        self.any_strain = any(isinstance(each, SpringCells) and each.law is RUBBER for each in families)
+        self.any_strain = any(isinstance(one, SpringCells) and one.law is RUBBER for one in families)
 
     @cached_property
     def link_stiffness(self) -> np.ndarray:
@@ -92,13 +93,12 @@ class AllFamilies:
         links, *cells = [family.damped(time) for family in self._central]
         for more in (family.damped(time) for family in self._others):
             names = ("nodes", "stiffness", "slots", "offset", "rest_length", "kind")
-            each = {name: np.append(getattr(links, name), getattr(more, name), axis=0) for name in names}
-            links = replace(links, **each)
+            joined = {name: np.append(getattr(links, name), getattr(more, name), axis=0) for name in names}
+            links = replace(links, **joined)
         return [links, *cells]
 
     def survey(self, u: np.ndarray, layers: int) -> Survey:
-        """Return what the springs of a lattice of so many layers store at u, and how far they are
-        strained."""
+        """Return the springs' energies and largest strain at u; layers: of the lattice."""
         along, kind, names = self.links.arrays, self.links.kind, self.links.names
         of_links, stretch = links.energies(u, along, kind, len(names), layers)
         energies = dict(zip(names, of_links.tolist(), strict=True))
@@ -110,21 +110,21 @@ class AllFamilies:
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""
         energy, internal = force(np.ascontiguousarray(u), self.springs)
-        return energy, self.beside(u, internal)
+        return energy, self.with_others(u, internal)
 
-    def beside(self, u: np.ndarray, internal: np.ndarray) -> np.ndarray:
-        """Return the internal force at u of which `internal` is what compiled calls have found, added to."""
+    def with_others(self, u: np.ndarray, internal: np.ndarray) -> np.ndarray:
+        """Add the forces at u of springs without an energy to `internal`, and return it."""
         for family in self._others:
             family.add_force(u, internal)
         return internal
 
     def average_force(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
-        """Return the internal force whose work from `start` to `end` is the elastic energy stored; of springs
-        without one the force in the middle."""
+        """Return the internal force whose work from `start` to `end` is the change of elastic energy; springs
+        without an energy contribute their force in the middle."""
         force = np.zeros_like(start)
         for family in self._central:
             family.loops.add_average_forces(start, end, family.arrays, force)
-        return self.beside(0.5 * (start + end), force)
+        return self.with_others(0.5 * (start + end), force)
 
     def powers_by_constants(self, u: np.ndarray, v: np.ndarray) -> list[np.ndarray]:
         """Return the derivatives of the power v·f of every spring at u by its constants, then by its natural
@@ -135,8 +135,8 @@ class AllFamilies:
         return [family.loops.powers_by_constants(*at, family.arrays) for family in self._central]
 
     def nonnegative_tangent(self, u: np.ndarray) -> np.ndarray:
-        """Return blocks (b, 3, 3) [N/m] of the tangent at u less what could make it indefinite: a sum of
-        squares, with negative area springs (ν < 1/3) only while strains are small."""
+        """Return blocks (b, 3, 3) [N/m] of the tangent at u without parts that could make it indefinite: a
+        sum of squares, with negative area springs (ν < 1/3) only while strains are small."""
         return self.tangent(u, tuple(family.nonnegative_part(u) for family in self._central), 0.0)
 
     def tangent(
@@ -148,9 +148,9 @@ class AllFamilies:
         inertia: np.ndarray = NO_INERTIA,
         extrapolated: bool = False,
     ) -> np.ndarray:
-        """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
-        springs' own where there are none, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
-        extrapolated: whether the stresses are those that `extrapolated` predicts."""
+        """Return scale × the blocks (b, 3, 3) [N/m] of the tangent with given stresses, or without them with
+        the share of the stresses at u, and with M + share (D − M); inertia: (n,) [N/m] on the diagonal;
+        extrapolated: whether the stresses are predictions of `extrapolated`."""
         blocks: np.ndarray = tangent(
             np.ascontiguousarray(u),
             stress or NO_STRESSES,
@@ -161,9 +161,9 @@ class AllFamilies:
             self.springs,
         )
         for family in self._others:
-            apart = np.zeros_like(blocks)
-            family.add_tangent(u, apart)
-            blocks += scale * apart
+            unscaled = np.zeros_like(blocks)
+            family.add_tangent(u, unscaled)
+            blocks += scale * unscaled
         return blocks
 
 
@@ -199,9 +199,9 @@ def tangent(
     inertia: np.ndarray,
     springs: SpringArrays,
 ) -> np.ndarray:
-    """Return scale × blocks (b, 3, 3) [N/m] of the tangent with these stresses, or the share of the
-    springs' own where they are empty, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m].
-    It is symmetric: what is above the diagonal is copied."""
+    """Return scale × blocks (b, 3, 3) [N/m] of the tangent with given stresses, or if they are empty with the
+    share of the stresses at u, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m]. The
+    tangent is symmetric: blocks above the diagonal are copies."""
     blocks = zeros((springs.blocks, 3, 3))
     strain = extrapolated and measures(springs.layers.law) == 3
     links.add_tangent(u, springs.links, stress[0], strain, share, blocks)
@@ -224,24 +224,24 @@ def tangent(
 
 
 def stiffness_by_cells(lattice: Lattice, springs: Constants) -> np.ndarray:
-    """Return what the cells beside every link of the grid give to its stiffness, (4, links, components)
-    [N/m]."""
+    """Return the contributions of the adjacent cells to the stiffness of every link of the grid, (4, links,
+    components) [N/m]."""
     links = lattice.links
 
     def shared(springs: Constants) -> np.ndarray:
-        each = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
-        of_cells = each[links.step, links.cells if each.shape[1] > 1 else 0]
+        by_step = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
+        of_cells = by_step[links.step, links.cells if by_step.shape[1] > 1 else 0]
         return np.asarray(links.shares[:, :, None] * of_cells)
 
-    found = shared(springs)
+    stiffness = shared(springs)
     if springs.upward.of:
         at = _levels(lattice.grid[2])[links.nodes[:, 0] % lattice.grid[2]]
-        found = found + at[:, None] * shared(springs.upward)
-    return found
+        stiffness = stiffness + at[:, None] * shared(springs.upward)
+    return stiffness
 
 
 def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[Links]:
-    """Central links, first and even where there are none; then those of a per-direction law."""
+    """Yield the central links, even if there are none, then the links of a per-direction law, if any."""
     links, k = lattice.links, stiffness_by_cells(lattice, springs).sum(axis=0)
     unequal = (k != k[:, :1]).any(axis=1)
 
@@ -256,7 +256,7 @@ def link_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
 
 
 def _levels(layers: int) -> np.ndarray:
-    """Heights (layers,) from the middle, in layers."""
+    """Return the heights (layers,) from the middle, in layers."""
     return np.arange(layers) - 0.5 * (layers - 1)
 
 
@@ -267,7 +267,8 @@ def _cells(at_rest: Cells, pattern: MassPattern, stiffness: np.ndarray, *law: An
 
 
 def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> Iterator[SpringCells]:
-    """On the cells of the layers and of the mid-surface, with what the edges take off the twist."""
+    """Yield the springs on the cells of the layers and of the mid-surface, with the edges' correction of the
+    twisting stiffness."""
     edges = of_edge_cells(springs, lattice.grid, lattice.twisting)
     layers, shape = lattice.grid[2], lattice.cell_areas.shape
 
@@ -279,18 +280,18 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
         ("area", lattice.layer_cells, "cells", layers),
         ("mid_area", lattice.middle_cells, "mid_cells", 1),
     )
-    for of_cells, at_rest, name, every in kinds:
+    for of_cells, at_rest, name, repeats in kinds:
         if of_cells == "area" and springs.rubber:
-            sides, area = (part[: len(part) // every] for part in at_rest[1:])
+            sides, area = (part[: len(part) // repeats] for part in at_rest[1:])
             squares, twist = (sides**2).sum(axis=2), edges[lattice.kept, 2]
-            found = of_rubber(springs, squares, area, twist, kept_cells)
-            stiffness, others = (np.concatenate([each] * every) for each in found)
-            yield _cells(at_rest, pattern, stiffness, "rubber", RUBBER, others)
+            of_layer = of_rubber(springs, squares, area, twist, kept_cells)
+            stiffness, constants = (np.concatenate([part] * repeats) for part in of_layer)
+            yield _cells(at_rest, pattern, stiffness, "rubber", RUBBER, constants)
             continue
         strains = kept_cells(springs.strains(of_cells))
         strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]
         stiffness = np.concatenate(
-            [np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])] * every
+            [np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])] * repeats
         )
         if of_cells == "area" and springs.upward.of:
             more = [kept_cells(springs.upward.along("area", 0)), kept_cells(springs.upward.strains("area"))]
@@ -299,17 +300,17 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
 
 
 def faces_by_cells(lattice: Lattice, springs: Constants) -> np.ndarray:
-    """Return what the cells beside every upright face give to its stiffness times its area, (4, faces)
-    [N·m]."""
+    """Return the contributions of the adjacent cells to every upright face's stiffness times its area, (4,
+    faces) [N·m]."""
     along = [springs.along("face_shear", axis) for axis in (0, 1)]
-    over, one = (springs.along(name, 0) for name in FACES[1:])
-    each = (*along, over + np.maximum(one, 0.0), over + np.maximum(-one, 0.0))
-    stored = np.stack([(k * lattice.cell_areas).ravel() for k in each])
+    over, coupling = (springs.along(name, 0) for name in FACES[1:])
+    by_axis = (*along, over + np.maximum(coupling, 0.0), over + np.maximum(-coupling, 0.0))
+    stored = np.stack([(k * lattice.cell_areas).ravel() for k in by_axis])
     return np.asarray(lattice.faces.shares * stored[lattice.faces.axis, lattice.faces.cells])
 
 
 def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> SpringCells:
-    """On the upright faces between the layers, against their shear."""
+    """Return the springs against shear on the upright faces between the layers."""
     if not springs.of.keys() & FACES:
         return NO_CELLS
     faces, area = lattice.faces, lattice.faces.at_rest.area
@@ -321,19 +322,20 @@ def face_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
 
 @cached(last=16, most=SHARED_UP_TO, size=lambda lattice, *_: lattice.mass_count)
 def springs_of(lattice: Lattice, pattern: MassPattern, springs: SpringSet) -> AllFamilies:
-    """The springs of a spring set on a lattice; of a small one the same every time."""
+    """Return the springs of a spring set on a lattice, cached for small lattices."""
     return families_of(lattice, pattern, Constants.read(springs))
 
 
 def families_of(lattice: Lattice, pattern: MassPattern, springs: Constants) -> AllFamilies:
-    """Return the springs of these constants on a lattice."""
+    """Return the springs of given constants on a lattice."""
     of = lattice, pattern, springs
     central, *others = link_springs(*of)
     return AllFamilies([central, *cell_springs(*of), face_springs(*of), *others], pattern)
 
 
 def table_dampers(lattice: Lattice, pattern: MassPattern, table: DamperSet) -> Links:
-    """The dampers of a scene's [dampers] table, along the links. Raises BadInput for x, y and z apart."""
+    """Return the dampers of a scene's [dampers] table, along the links. Raises BadInput for a damper with
+    values along x, y and z."""
     along_links, *others = link_springs(lattice, pattern, Constants.read(table))
     if others:
         name = others[0].names[others[0].kind[0]]

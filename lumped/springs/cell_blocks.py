@@ -1,8 +1,8 @@
-"""From the derivatives of a cell's stress to the blocks of its tangent, as compiled functions.
+"""Blocks of a cell's tangent from the derivatives of its stress, as compiled functions.
 
-With a = (d1 − d2)/2 and b = (d1 + d2)/2 the mean sides, d1 and d2 the diagonals, the derivative of a cell's
-forces (`lumped.springs.cells`) is written in the diagonals first: (4, 9) of (d1, d1), (d1, d2), (d2, d1) and
-(d2, d2), each a 3×3 matrix by rows. A corner's part is one of these, with a sign.
+A cell has the mean sides a = (d1 − d2)/2 and b = (d1 + d2)/2, d1 and d2 the diagonals. The derivative of its
+forces (`lumped.springs.cells`) is computed in the diagonals first: (4, 9) of (d1, d1), (d1, d2), (d2, d1) and
+(d2, d2), each a 3×3 matrix by rows. A corner's part is one of the four matrices, with a sign.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ Rows = tuple[Pair, Pair, Pair]
 
 @inner()
 def by_sides(d: Three, a: Vector, b: Vector) -> Pair:
-    """The derivatives by a and by b of what has the derivative d by g, g that of sides a and b."""
+    """Return the derivatives by the sides a and b of a quantity with the derivative d by their measure g."""
     return plus(times(2.0 * d[0], a), times(d[2], b)), plus(times(2.0 * d[1], b), times(d[2], a))
 
 
 @inner()
 def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarray) -> None:
-    """The tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
-    derivatives of S₁, S₂, S₃ by the sides: that in a and b, with a = (d1 − d2)/2 and b = (d1 + d2)/2."""
+    """Set the tangent of a cell in its diagonals, (4, 9) of (d1, d1), (d1, d2), (d2, d1), (d2, d2), from the
+    stress and the derivatives of S₁, S₂, S₃ by the sides a = (d1 − d2)/2 and b = (d1 + d2)/2."""
     (s1a, s1b), (s2a, s2b), (s3a, s3b) = rows
     s1, s2, s3 = 0.5 * stress[0], 0.5 * stress[1], 0.25 * stress[2]
     for q in range(3):
@@ -45,7 +45,7 @@ def to_diagonals(stress: Three, a: Vector, b: Vector, rows: Rows, out: np.ndarra
 
 @inner(cache=True, forceinline=True)
 def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.ndarray) -> None:
-    """The tangent's part of q, (3, 9) of (q, d1), (q, d2) and (q, q), from S₄ and the derivatives of the
+    """Set the tangent's part of q, (3, 9) of (q, d1), (q, d2) and (q, q), from S₄ and the derivatives of the
     stress by s, 14 24 34 44."""
     by_a, by_b = by_sides((more[0], more[1], more[2]), a, b)
     by_d1, by_d2 = plus(by_a, by_b), less(by_b, by_a)
@@ -60,8 +60,8 @@ def by_warp(stress: float, more: Four, a: Vector, b: Vector, q: Vector, out: np.
 def add_blocks(
     in_diagonals: np.ndarray, of_warp: np.ndarray, warps: bool, p: int, slots: np.ndarray, blocks: np.ndarray
 ) -> None:
-    """Add a tangent in a cell's diagonals, (4, 9), and where it `warps` in q, (3, 9), to the blocks on and
-    below the diagonal of its corners, each a mean of p masses, with q one."""
+    """Add a tangent in a cell's diagonals, (4, 9), and, if it `warps`, in q, (3, 9), to the blocks on and
+    below the diagonal of its corners, each a mean of p masses."""
     flat, share = blocks.reshape(-1, 9), 1.0 / (p * p)
     for corner in range(4):
         side, turn = -share if corner < 2 else share, 1.0 if corner % 2 == 0 else -1.0

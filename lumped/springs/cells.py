@@ -2,17 +2,16 @@
 
 A cell whose four corners, in turn, are the means of p masses each has the mean sides a = (d1 − d2)/2 and
 b = (d1 + d2)/2, d1 and d2 its diagonals, and the measure g = (a·a, b·b, a·b); its area is √(det g), exact for
-a flat cell, that of the mid-point parallelogram doubled for a warped one. What its corners have beside mean
-sides, warped or bent in the plane, is q = p₀ − p₁ + p₂ − p₃, 0 at rest, and s = q·q. What its springs store
-is a law of g, of rubber also of s (`lumped.springs.law_table`); rigid motions leave both alone. With S =
-dW/dg, D = d²W/dg² and the change δ of g,
+a flat cell, twice the area of the mid-point parallelogram for a warped one. The corners' deviation from mean
+sides, by warping or bending in the plane, is q = p₀ − p₁ + p₂ − p₃, 0 at rest, and s = q·q. The springs'
+energy is a law of g, for rubber also of s (`lumped.springs.law_table`); rigid motions change neither. The
+forces and their change follow from S = dW/dg, D = d²W/dg² and the change δ of g:
 
     forces      f_a = 2 S₁ a + S₃ b,   f_b = 2 S₂ b + S₃ a,   f_q = 2 S₄ q
-    tangent     δf_a = 2 S₁ δa + S₃ δb + 2 a δS₁ + b δS₃,   δS = D δg,   δf_b and δf_q likewise.
+    tangent     δf_a = 2 S₁ δa + S₃ δb + 2 a δS₁ + b δS₃,   δS = D δg,   δf_b and δf_q by analogy.
 
-The tangent takes S as an argument of its own: that at u, an extrapolated one (`lumped.springs.links`), its
-nonnegative part, none. Dampers have the stress M ġ (`lumped.springs.laws`), of area and strains whatever the
-law.
+The tangent takes S as an argument: S at u, an extrapolated S (`lumped.springs.links`), its nonnegative part,
+or none. Dampers have the stress M ġ (`lumped.springs.laws`) of area and strains for any law of the springs.
 
 Arrays: stress (c, 4) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
@@ -51,9 +50,9 @@ from sheetbench.numerics.options import inner, njit
 
 
 class CellArrays(NamedTuple):
-    """nodes (c, 4, p); sides (c, 2, 3) [m] at rest; rest (4, c), natural area and δg₀ [m²]; law: the tag with
-    the constants of the springs' law or, times a second, of the dampers'; slots (c, 4p, 4p) block numbers,
-    corner-major."""
+    """Arrays of cells. nodes: (c, 4, p); sides: (c, 2, 3) [m] at rest; rest: (4, c) natural area and δg₀
+    [m²]; law: the tag with the constants of the springs' law or, times a second, of the dampers'; slots: (c,
+    4p, 4p) block numbers, corner-major."""
 
     nodes: np.ndarray
     sides: np.ndarray
@@ -64,7 +63,7 @@ class CellArrays(NamedTuple):
 
 @inner(cache=True, forceinline=True)
 def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, Vector]:
-    """What u changes in the mean sides a and b and in q of cell c."""
+    """Return the changes of the mean sides a and b and of q of cell c by u."""
     fx = fy = fz = sx = sy = sz = qx = qy = qz = 0.0
     for s in range(nodes.shape[2]):
         k, m = np.uint64(nodes[c, 0, s]), np.uint64(nodes[c, 1, s])
@@ -91,7 +90,7 @@ def changes(u: np.ndarray, nodes: np.ndarray, c: int) -> tuple[Vector, Vector, V
 def measure(
     u: np.ndarray, cells: CellArrays, c: int
 ) -> tuple[Four, Three, float, tuple[Vector, Vector, Vector]]:
-    """δg and s since cell c was free of stress; g and A there; a, b and q now."""
+    """Return δg and s of cell c since the state without stress; g and A of that state; a, b and q at u."""
     sides, natural = cells.sides, cells.rest
     a, b = (sides[c, 0, 0], sides[c, 0, 1], sides[c, 0, 2]), (sides[c, 1, 0], sides[c, 1, 1], sides[c, 1, 2])
     da, db, q = changes(u, cells.nodes, c)
@@ -137,7 +136,7 @@ def pull(
 def add_forces(
     u: np.ndarray, cells: CellArrays, force: np.ndarray, branches: Branches | None = None
 ) -> float:
-    """Add the internal force to `force` (n, 3) [N]; return the springs' own energy [J]."""
+    """Add the internal force to `force` (n, 3) [N]; return the springs' energy [J], branches excluded."""
     energy = 0.0
     for c in range(len(cells.nodes)):
         d, g, area, shape = measure(u, cells, c)
@@ -155,7 +154,7 @@ def add_forces(
 
 @njit
 def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
-    """Energy of every cell, (c,) [J]; of rubber without that of the links along its sides."""
+    """Return the energy of every cell, (c,) [J]; for rubber without the energy of links along its sides."""
     out = empty(len(cells.nodes))
     for c in range(len(cells.nodes)):
         d, g, area, _ = measure(u, cells, c)
@@ -165,7 +164,8 @@ def energies(u: np.ndarray, cells: CellArrays) -> np.ndarray:
 
 @njit
 def extrapolated(u: np.ndarray, step: np.ndarray, cells: CellArrays) -> np.ndarray:
-    """Return what the linearisation at u predicts after a step (n, 3) [m], (c, 4), as the law has it."""
+    """Return the law's quantities (c, 4) that the linearisation at u predicts after a step (n, 3) [m]
+    (`CellLaw.extrapolate`)."""
     out = empty((len(cells.nodes), 4))
     for c in range(len(cells.nodes)):
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
@@ -193,8 +193,8 @@ def powers_by_constants(u: np.ndarray, v: np.ndarray, cells: CellArrays) -> np.n
 
 @njit
 def add_average_forces(start: np.ndarray, end: np.ndarray, cells: CellArrays, force: np.ndarray) -> None:
-    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
-    of the mean stress on the mean sides."""
+    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the change of energy: the
+    force of the mean stress on the mean sides."""
     for c in range(len(cells.nodes)):
         d0, g, area, (a0, b0, q0) = measure(start, cells, c)
         d1, _, _, (a1, b1, q1) = measure(end, cells, c)
@@ -213,15 +213,15 @@ def add_tangent(
     share: float,
     blocks: np.ndarray,
 ) -> None:
-    """Add the tangent of every cell with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks on and below the diagonal; with what is `extrapolated` D − M
-    is that of it."""
+    """Add the tangent of every cell with a stress, or with the share of its stress at u if `stress` is empty,
+    and with M + share (D − M), to the 3×3 blocks on and below the diagonal. extrapolated: whether `stress`
+    holds quantities of `CellLaw.extrapolate`, which then also give D − M."""
     in_diagonals, of_warp = empty((4, 9)), empty((3, 9))
-    own = len(stress) == 0
+    stress_at_u = len(stress) == 0
     for c in range(len(cells.nodes)):
         (d, g, area, (a, b, q)), k = measure(u, cells, c), constants_of(cells.law, c)
         _, memory, s = respond(cells.law, d, g, area, k)
-        if own:
+        if stress_at_u:
             s = share * s[0], share * s[1], share * s[2], share * s[3]
         else:
             s = stress[c, 0], stress[c, 1], stress[c, 2], stress[c, 3]

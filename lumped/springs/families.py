@@ -1,8 +1,8 @@
-"""Families of springs: what assembly, descent and the integrators ask of each, and of the dampers beside it.
+"""Families of springs, with the operations that assembly, descent and integrators use, and their dampers.
 
 A family is data (masses, rest geometry, the constants of every spring's law) and a module of compiled loops
 over it, `lumped.springs.links` or `lumped.springs.cells`, whose functions take the displacement, then the
-family's arrays. Stresses S, stiffness D and its material part M are those of `lumped.springs.laws`.
+family's arrays. `lumped.springs.laws` defines stress S, stiffness D and its material part M.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from sheetbench.numerics.options import typed
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """nodes: (m, …) masses of each spring; stiffness: (m,) or (m, 4) [N/m]; slots: (m, …) block numbers of
-    each spring's pairs of masses. Displacements and forces are (n, 3) [m], [N]."""
+    """Springs of one kind. nodes: (m, …) masses of each spring; stiffness: (m,) or (m, 4) [N/m]; slots: (m,
+    …) block numbers of each spring's pairs of masses. Displacements and forces are (n, 3) [m], [N]."""
 
     nodes: np.ndarray
     stiffness: np.ndarray
     slots: np.ndarray
 
     loops: ClassVar[Any]
-    arrays: ClassVar[Any]  # what the loops take after the displacement, `LinkArrays` or `CellArrays`
-    measures: ClassVar[int] = 4  # that a spring's memory holds room for
+    arrays: ClassVar[Any]  # arguments of the loops after the displacement, `LinkArrays` or `CellArrays`
+    measures: ClassVar[int] = 4  # number of measures of a spring
 
     def __len__(self) -> int:
         return len(self.nodes)
@@ -50,8 +50,8 @@ class Family:
 
 @dataclass(frozen=True, eq=False)
 class Links(Family):
-    """Central links, all together: offset (m, 3) [m] rest vectors, rest_length (m,) [m], kind (m,) numbers
-    into the lattice's `names`; natural: δg₀ (m,) [m²] of a sheet that is not flat at rest."""
+    """Central links of all directions. offset: (m, 3) [m] rest vectors; rest_length: (m,) [m]; kind: (m,)
+    numbers into `names`; natural: δg₀ (m,) [m²] of a sheet that is not flat at rest."""
 
     offset: np.ndarray
     rest_length: np.ndarray
@@ -64,7 +64,7 @@ class Links(Family):
 
     @cached_property
     def arrays(self) -> LinkArrays:
-        """Return what the loops take."""
+        """Arrays for the loops."""
         rest = np.stack(np.broadcast_arrays(self.rest_length, self.natural))
         return typed(LinkArrays(self.nodes, self.offset, rest, self.stiffness, self.slots))
 
@@ -77,7 +77,7 @@ class Links(Family):
         return np.maximum(self.stresses(u)[:, 0], 0.0)
 
     def stretched(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the position (m, 3) of every link's second end beside its first, its length and its
+        """Return the position (m, 3) [m] of every link's second end relative to its first, its length and its
         elongation (m,) [m]."""
         d = u[self.nodes[:, 1]] - u[self.nodes[:, 0]]
         r, change = self.offset + d, ((2.0 * self.offset + d) * d).sum(axis=1) - self.natural
@@ -112,11 +112,11 @@ class DirectionalLinks(Links):
 
 @dataclass(frozen=True, eq=False)
 class SpringCells(Family):
-    """Springs on the cells of the layers, of the mid-surface or on upright faces: nodes (c, 4, p), stiffness
-    (c, 4) of small strains, against the change of area and the Green strains ε1, ε2, γ of the mean sides, or
-    (c, 7) with what couples these, which dampers in proportion resist; at rest sides (c, 2, 3) [m] and area
-    (c,) [m²]; their name among energies; their law, and what constants it has beside
-    (c, n); natural: area and δg₀ (4, c) of a sheet that is not flat at rest."""
+    """Springs on the cells of the layers, of the mid-surface or on upright faces. nodes: (c, 4, p);
+    stiffness: (c, 4) [N/m] of small strains, against the change of area and the Green strains ε1, ε2, γ of
+    the mean sides, or (c, 7) with their couplings; dampers are proportional to it; sides: (c, 2, 3) [m] and
+    area: (c,) [m²] at rest; name: among energies; law: of the springs, others: (c, n) its further constants;
+    natural: (4, c) area and δg₀ of a sheet that is not flat at rest."""
 
     sides: np.ndarray
     area: np.ndarray
@@ -129,21 +129,21 @@ class SpringCells(Family):
 
     @cached_property
     def constants(self) -> np.ndarray:
-        """Return the law's constants, those of small strains first [N/m³]: (c, 7), or (c, 4 + n)."""
+        """The law's constants, first of small strains [N/m³]: (c, 7), or (c, 4 + n)."""
         springs = laws.of_stiffness(self.stiffness, self.sides, self.area)
         return springs if self.others is None else np.column_stack([springs[:, :4], self.others])
 
     @cached_property
     def arrays(self) -> CellArrays:
-        """Return what the loops take."""
+        """Arrays for the loops."""
         rest = self.natural
         if rest is None:
             rest = np.vstack([self.area, np.zeros((3, len(self)))])
         return typed(CellArrays(self.nodes, self.sides, rest, self.law.tag(self.constants), self.slots))
 
     def nonnegative_part(self, u: np.ndarray) -> np.ndarray:
-        """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and
-        where it is positive S₄."""
+        """Return the positive semidefinite part of the stresses as matrices ((S₁, S₃/2), (S₃/2, S₂)), and the
+        positive part of S₄."""
         s = self.stresses(u)
         values, vectors = np.linalg.eigh(s[:, [[0, 2], [2, 1]]] * [[1.0, 0.5], [0.5, 1.0]])
         part = (vectors * np.maximum(values, 0.0)[:, None]) @ vectors.swapaxes(1, 2)

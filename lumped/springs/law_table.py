@@ -1,8 +1,8 @@
-"""The laws of cells as rows of a table, `LAWS`, and how compiled loops call the one that they are given.
+"""The laws of cells as rows of a table, `LAWS`, and the functions by which compiled loops call a law.
 
-A law's constants go into the loops as a tuple of the law's own type, its tag: numba compiles a loop once for
-each tag that it meets, and `respond`, `stiffness`, `extrapolate`, … below stand in it for the
-functions of that tag's row. A new law is a row, its compiled functions and a tag.
+A law's constants go into the loops as a tuple of a type of the law, its tag: numba compiles a loop once for
+each tag, with the functions of that tag's row for `respond`, `stiffness`, `extrapolate`, … below. A new law
+is a row, its compiled functions and a tag.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from sheetbench.numerics.options import inner
 
 
 class AreaAndStrains(NamedTuple):
-    """constants: (c, 7) of every cell's `area_and_strains` [N/m³]."""
+    """Tag of `laws.area_and_strains`. constants: (c, 7) [N/m³] of every cell."""
 
     constants: np.ndarray
 
 
 class Rubber(NamedTuple):
-    """constants: (c, 13) of every cell's `rubber`."""
+    """Tag of `laws.rubber`. constants: (c, 13) of every cell."""
 
     constants: np.ndarray
 
 
 class Face(NamedTuple):
-    """constants: (c, 5) of every upright face's `face`."""
+    """Tag of `face`. constants: (c, 5) of every upright face."""
 
     constants: np.ndarray
 
@@ -44,12 +44,12 @@ T = TypeVar("T", bound=Callable[..., Any])
 
 @inner()
 def face(d: Four, g: Three, area: float, k: Constants) -> tuple[float, float, Four]:
-    """The law of upright faces: the shear of their director b against the direction of their chord a,
+    """Return energy W, stiffness against δg₁₂ and stress S of an upright face, which resists the shear of its
+    director b against the direction of its chord a for any stretch of the chord,
 
-        W = ½ k₄ δg₁₂²/(1 + δg₁₁/g₁₁),
+        W = ½ k₄ δg₁₂²/(1 + δg₁₁/g₁₁).
 
-    whatever the chord is stretched. k₀ to k₃: the springs of its small strains [N/m³]. Return W, its
-    stiffness against δg₁₂, and S.
+    k₀ to k₃: the springs of its small strains [N/m³].
     """
     now = g[0] + d[0]
     stiff = k[4] * g[0] / now
@@ -62,7 +62,7 @@ def face(d: Four, g: Three, area: float, k: Constants) -> tuple[float, float, Fo
 def stiffness_of_face(
     d: Four, g: Three, area: float, stiff: float, share: float, k: Constants
 ) -> tuple[Six, Four]:
-    """Return M + share (D − M) of `face`, its 11 22 33 12 13 23; nothing of s."""
+    """Return M + share (D − M) of `face`, 11 22 33 12 13 23, and zeros for s."""
     turn, part = d[2] / (g[0] + d[0]), share * stiff
     shear = k[3] + share * (stiff - k[3])
     return (part * turn * turn, 0.0, shear, 0.0, -part * turn, 0.0), (0.0, 0.0, 0.0, 0.0)
@@ -84,7 +84,7 @@ def _itself(d: Four, g: Three, memory: Any, predicted: Four) -> Any:
 
 
 def _linear(stiffness: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function that gives S + D ġ of a law with this stiffness."""
+    """Return the function `extrapolate` of a law with a given stiffness, S + D ġ."""
 
     @inner()
     def extrapolate(  # type: ignore[no-untyped-def]
@@ -105,12 +105,12 @@ def _linear(stiffness: Callable[..., Any]) -> Callable[..., Any]:
 
 @dataclass(frozen=True)
 class CellLaw:
-    """tag: of its loops; respond: (δg and s, g at rest, area, constants) → energy, what its stiffness
-    takes, stress; stiffness: (δg and s, g, area, that, share, constants) → M + share (D − M) of g, 11 22 33
-    12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, that, stress, constants, their rate) →
-    what a linearisation predicts, and of_extrapolated: (δg and s, g, that, it) → that and the stress;
-    measures: 3, or 4 with s; parts: (stiffness (c, 4 or 7), other constants, area) → constants of each kind
-    that `ENERGIES` names, (c, n); examples: constants of a cell of 1 × 1 m to test it by."""
+    """A law of cells. tag: of its loops; respond: (δg and s, g at rest, area, constants) → energy, memory for
+    the stiffness, stress; stiffness: (δg and s, g, area, memory, share, constants) → M + share (D − M) of g,
+    11 22 33 12 13 23, and of s, 14 24 34 44; extrapolate: (δg and s, g, area, memory, stress, constants, rate
+    of g and s) → prediction of the linearisation; of_extrapolated: (δg and s, g, memory, prediction) → memory
+    and stress; measures: 3, or 4 with s; parts: (stiffness (c, 4 or 7), other constants, area) → constants of
+    each kind of `ENERGIES`, (c, n); examples: constants of a cell of 1 × 1 m for tests."""
 
     tag: type[Tag]
     respond: Callable[..., Any]
@@ -124,7 +124,7 @@ class CellLaw:
 
     @property
     def count(self) -> int:
-        """How many constants a cell has."""
+        """Number of constants of a cell."""
         return len(self.examples[0])
 
 
@@ -188,7 +188,7 @@ _OF = {law.tag: law for law in LAWS}
 
 
 def _compiled_by_tag(call: T) -> T:
-    """Have compiled callers of a function of a tag call the part of its name of that tag's law."""
+    """Register the overload of a function of a tag: compiled callers call the function of the tag's law."""
     part = call.__name__
 
     @overload(call, strict=False)
@@ -225,7 +225,7 @@ def by_constants(
 def extrapolate(
     tag: Tag, d: Four, g: Three, area: float, memory: Any, stress: Four, k: Constants, rate: Four
 ) -> Four:
-    """Return the prediction of the linearisation for this rate of g and s (`CellLaw.extrapolate`)."""
+    """Return the prediction of the linearisation for a rate of g and s (`CellLaw.extrapolate`)."""
     return _OF[type(tag)].extrapolate(d, g, area, memory, stress, k, rate)  # type: ignore[no-any-return]
 
 
@@ -247,35 +247,34 @@ def count(tag: Tag) -> int:
     return _OF[type(tag)].count
 
 
-def constants(tag: Tag, first: Any, apart: Any) -> Any:
-    """Return a cell's constants, of which the first stands at this place of the tag's array, flat, and they
-    so far apart."""
-    return load_each(0, tag.constants, first, apart, _OF[type(tag)].count)
+def constants(tag: Tag, first: Any, stride: Any) -> Any:
+    """Return a cell's constants, at the places first, first + stride, … of the tag's flat array."""
+    return load_each(0, tag.constants, first, stride, _OF[type(tag)].count)
 
 
 @overload(constants, strict=False)
-def _constants(tag: Any, first: Any, apart: Any) -> Any:
+def _constants(tag: Any, first: Any, stride: Any) -> Any:
     count = _OF[tag.instance_class].count
-    return lambda tag, first, apart: load_each(0, tag.constants, first, apart, count)
+    return lambda tag, first, stride: load_each(0, tag.constants, first, stride, count)
 
 
 @inner()
 def constants_of(tag: Tag, c: int) -> Any:
-    """Return the constants of cell c where a row of the tag's array has them."""
+    """Return the constants of cell c, row c of the tag's array."""
     return constants(tag, c * count(tag), 1)
 
 
 @inner()
 def mean_stress(tag: Tag, d0: Four, d1: Four, g: Three, area: float, k: Constants) -> Four:
-    """Return the stress over a step from δg and s = d0 to d1 whose work is the energy stored: that in its
-    middle, and along the step what is left of the energy (Gonzalez 1996)."""
+    """Return the stress over a step from δg and s = d0 to d1 whose work is the change of energy: the stress
+    in the middle, corrected along the step by the missing energy (Gonzalez 1996)."""
     middle = 0.5 * (d0[0] + d1[0]), 0.5 * (d0[1] + d1[1]), 0.5 * (d0[2] + d1[2]), 0.5 * (d0[3] + d1[3])
     s = respond(tag, middle, g, area, k)[2]
     m1, m2, m3, m4 = d1[0] - d0[0], d1[1] - d0[1], d1[2] - d0[2], d1[3] - d0[3]
     if measures(tag) == 3:
         m4 = 0.0
     length = m1 * m1 + m2 * m2 + m3 * m3 + m4 * m4
-    if length <= 1e-12 * area * area:  # what is left is rounding
+    if length <= 1e-12 * area * area:  # the missing energy is rounding
         return s
     stored = respond(tag, d1, g, area, k)[0] - respond(tag, d0, g, area, k)[0]
     left = (stored - s[0] * m1 - s[1] * m2 - s[2] * m3 - s[3] * m4) / length

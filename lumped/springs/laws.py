@@ -7,29 +7,29 @@ mean sides a and b. A law is an energy W(g) [J]; its stress is S = dW/dg [N/m], 
     2 S₁ a + S₃ b   and   2 S₂ b + S₃ a,
 
 and so does the tangent (`lumped.springs.links`, `lumped.springs.cells`). D is M + (D − M) with the material
-part M = Σ k ∇ε ∇εᵀ of the strains ε that an energy ½ Σ k ε² is of; dampers of coefficients c in place of k
-have the stress M ġ. Laws take the change δg since rest, not g alone: where it is small no digits are lost.
+part M = Σ k ∇ε ∇εᵀ of the strains ε in an energy ½ Σ k ε²; dampers of coefficients c in place of k have the
+stress M ġ. Laws take the change δg since rest, not g alone: where it is small no digits are lost.
 
-Laws of cells take and return one measure more, s = q·q of what the corners have beside mean sides
+Laws of cells have one more measure, s = q·q of the corners' deviation from mean sides
 (`lumped.springs.cells`); they are the rows of `lumped.springs.law_table.LAWS`.
 
-A rubber membrane, at any strain, is per volume and with C the cell's deformation tensor in its plane,
-T = tr C, A = det C and θ = t² of the thickness stretch t at which nothing pulls there
+The energy of a rubber membrane per volume, at any strain, is a function of the cell's deformation tensor C in
+its plane, T = tr C, A = det C and θ = t², t the thickness stretch without normal stress
 (`sheetbench.scenes.objects.material` has f, c₀₁ and Λ),
 
     W = f(x) + c₀₁ (A + θ T − 3) − p/2 ln(A θ) + Λ/8 ln²(A θ),  x = T + θ − 3,  p = 2 f′(0) + 4 c₀₁,
     0 = θ (f′ + c₀₁ T) − p/2 + Λ/4 ln(A θ).
 
-With M = −θ (f′ + c₀₁ T) its derivatives are W_T = f′ + c₀₁ θ and W_A = c₀₁ + M/A, and with B = Λ/4 − M and
-N = B + θ² f″, θ eliminated from the second ones too,
+Its derivatives are W_T = f′ + c₀₁ θ and W_A = c₀₁ + M/A with M = −θ (f′ + c₀₁ T). The second derivatives, θ
+eliminated, are for B = Λ/4 − M and N = B + θ² f″
 
     W_TT = (f″ B − θ² c₀₁ (2 f″ + c₀₁))/N,   W_TA = −(f″ + c₀₁) Λ θ/4AN,   W_AA = (M² − M Λ/2 + B θ² f″)/A²N.
 
-Cells are of right angles. C is that of the mean ḡ of g in a bilinear cell, δg + s/12 (1, 1, 0), s = q·q of
-what its corners have beside mean sides. Less ½ k₁₀ (√ĝ₁₁ − L₁)² + ½ k₁₁ (√ĝ₂₂ − L₂)², ĝ = g + s/4 the mean of
-its sides', which links along them store unless opposite ones differ; with ½ k₁₂ δg₁₂². Constants: k₀ to k₃,
-the springs of its small strains, whose M it has; k₄ to k₉: c₁₀, c₀₁, c₂₀, c₃₀, Λ, all times its volume [J],
-and Gent's limit; k₁₀, k₁₁ [N/m]; k₁₂ [N/m³].
+Cells have right angles at rest. C follows from the mean ḡ of g in a bilinear cell, δg + s/12 (1, 1, 0). The
+cell's law subtracts ½ k₁₀ (√ĝ₁₁ − L₁)² + ½ k₁₁ (√ĝ₂₂ − L₂)², ĝ = g + s/4 the mean of its sides' squares, the
+energy of the links along them if opposite sides are equal, and adds ½ k₁₂ δg₁₂². Constants: k₀ to k₃, the
+springs of its small strains, which define M; k₄ to k₉: c₁₀, c₀₁, c₂₀, c₃₀, Λ, all times its volume [J], and
+Gent's limit; k₁₀, k₁₁ [N/m]; k₁₂ [N/m³].
 """
 
 from __future__ import annotations
@@ -46,38 +46,38 @@ Four = tuple[float, float, float, float]
 Constants = tuple[float, ...]
 Six = tuple[float, float, float, float, float, float]  # 11, 22, 33, 12, 13, 23 of a symmetric matrix
 Memory = tuple[float, float]
-# own, constant, S and δg (m, n) of springs of n measures: with Maxwell branches the force is that of
-# own · S + constant [N/m], and S and δg are filled in
+# own, constant, S and δg (m, n) of springs of n measures: with Maxwell branches the stress of the force is
+# own · S + constant [N/m]; the loops set S and δg
 Branches = tuple[float, np.ndarray, np.ndarray, np.ndarray]
 
 
 @inner()
 def plus(a: Vector, b: Vector) -> Vector:
-    """a + b."""
+    """Return a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 @inner()
 def less(a: Vector, b: Vector) -> Vector:
-    """a − b."""
+    """Return a − b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @inner()
 def times(k: float, a: Vector) -> Vector:
-    """k a."""
+    """Return k a."""
     return k * a[0], k * a[1], k * a[2]
 
 
 @inner()
 def dot(a: Vector, b: Vector) -> float:
-    """a·b."""
+    """Return a·b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @inner()
 def elongation(change: float, square: float, rest_length: float, k: float) -> Four:
-    """W = ½ k (r − L)², r = √g: return W, S = ½ k (r − L)/r, M = ¼ k/g and D − M = −½ S/g."""
+    """Return W = ½ k (r − L)², r = √g, S = ½ k (r − L)/r, M = ¼ k/g and D − M = −½ S/g."""
     length = math.sqrt(square)
     strain = change / ((length + rest_length) * length)
     stress = 0.5 * k * strain
@@ -87,7 +87,7 @@ def elongation(change: float, square: float, rest_length: float, k: float) -> Fo
 
 @inner()
 def times_six(d: Constants, x: Three) -> Three:
-    """A symmetric matrix times a vector."""
+    """Return a symmetric matrix times a vector."""
     return (
         d[0] * x[0] + d[3] * x[1] + d[4] * x[2],
         d[3] * x[0] + d[1] * x[1] + d[5] * x[2],
@@ -97,11 +97,12 @@ def times_six(d: Constants, x: Three) -> Three:
 
 @inner()
 def area_and_strains(d: Four, g: Three, area: float, q: Constants) -> tuple[float, Memory, Four]:
-    """W = ½ q₀ (A − A₀)² + ½ δg·Q δg, A² = det g: energy of an area spring and of springs against the Green
-    strains of the sides, Q of q₁ to q₆ (11, 22, 33, 12, 13, 23) with what couples them, as fibres do. d: δg;
-    g: at rest; area: A₀; q: [N/m³] (`of_stiffness`).
+    """Return energy W, memory (t, A²) and stress S of an area spring and of springs against the Green strains
+    of the sides, W = ½ q₀ (A − A₀)² + ½ δg·Q δg, A² = det g, Q of q₁ to q₆ (11, 22, 33, 12, 13, 23), with
+    couplings by fibres.
 
-    Return W; t = ½ q₀ (A − A₀)/A, which is the area spring's stress over n = (g₂₂, g₁₁, −2 g₁₂), and A²; S.
+    d: δg; g: at rest; area: A₀; q: [N/m³] (`of_stiffness`). t = ½ q₀ (A − A₀)/A is the area spring's stress
+    over n = (g₂₂, g₁₁, −2 g₁₂).
     """
     d1, d2, d3 = d[0], d[1], d[2]
     turned = g[2] * d3
@@ -120,7 +121,7 @@ def area_and_strains(d: Four, g: Three, area: float, q: Constants) -> tuple[floa
 def stiffness_of_area_and_strains(
     d: Four, g: Three, area: float, memory: Memory, share: float, q: Constants
 ) -> tuple[Six, Four]:
-    """M + share (D − M) of `area_and_strains`, with its t and A²; none of s:
+    """Return M + share (D − M) of `area_and_strains` with its memory t and A², and zeros for s:
 
     M = ¼ q₀ n nᵀ/A² + Q,   D − M = t (N − ½ n nᵀ/A²),   N = ∂n/∂g.
     """
@@ -150,7 +151,8 @@ def extrapolated_area_and_strains(
 
 @inner()
 def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four) -> tuple[Memory, Four]:
-    """Return t and A², which `stiffness_of_area_and_strains` takes, and S of what has been extrapolated."""
+    """Return the memory t and A² of `stiffness_of_area_and_strains`, and S, from extrapolated quantities
+    p."""
     t = p[3] / math.sqrt(memory[1])
     s = p[0] + t * (g[1] + d[1]), p[1] + t * (g[0] + d[0]), p[2] - 2.0 * t * (g[2] + d[2]), 0.0
     return (t, memory[1]), s
@@ -160,8 +162,8 @@ def area_and_strains_of_extrapolated(d: Four, g: Three, memory: Memory, p: Four)
 def area_and_strains_by_constants(
     d: Four, g: Three, area: float, memory: Memory, q: Constants, rate: Four, out: np.ndarray
 ) -> None:
-    """Set the derivatives of the power S·ġ by q₀ to q₆, and by the natural change of g, of which A₀ is √det,
-    in `out` (10,)."""
+    """Set the derivatives of the power S·ġ by q₀ to q₆, and by the natural change of g, with A₀² = det g, in
+    `out` (10,)."""
     now = math.sqrt(memory[1])
     turned = g[2] * d[2]
     grown = (g[1] * d[0] + g[0] * d[1] + d[0] * d[1] - (turned + turned) - d[2] * d[2]) / (now + area)
@@ -177,13 +179,14 @@ def area_and_strains_by_constants(
 
 
 def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """Constants q (c, 7) [N/m³] of springs of stiffness k (c, 4 or 7) [N/m] against the change of area
-    A/A₀ − 1 and the Green strains ε1 = δg₁₁/2g₁₁, ε2 = δg₂₂/2g₂₂, γ = δg₁₂/√(g₁₁ g₂₂), each with the energy
-    ½ k ε² A₀, and of what couples ε1 ε2, ε1 γ and ε2 γ, k ε ε A₀; of cells with sides (c, 2, 3) [m] and area
-    (c,) [m²] at rest."""
+    """Return the constants q (c, 7) [N/m³] of springs of stiffness k (c, 4 or 7) [N/m] against the change of
+    area A/A₀ − 1 and the Green strains ε1 = δg₁₁/2g₁₁, ε2 = δg₂₂/2g₂₂, γ = δg₁₂/√(g₁₁ g₂₂), each with the
+    energy ½ k ε² A₀, and of the couplings of ε1 ε2, ε1 γ and ε2 γ, with k ε ε A₀; for cells with sides
+    (c, 2, 3) [m] and area (c,) [m²] at rest."""
     a, b = (sides**2).sum(axis=2).T
-    one, other, turn = 0.5 / a, 0.5 / b, 1.0 / np.sqrt(a * b)
-    squares = 1.0 / area**2, one**2, other**2, turn**2, one * other, one * turn, other * turn
+    first, second, shear = 0.5 / a, 0.5 / b, 1.0 / np.sqrt(a * b)
+    products = first * second, first * shear, second * shear
+    squares = 1.0 / area**2, first**2, second**2, shear**2, *products
     constants = np.zeros((len(k), len(squares)))
     count = k.shape[1]
     constants[:, :count] = k * area[:, None] * np.stack(squares[:count], axis=1)
@@ -192,7 +195,7 @@ def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarr
 
 @inner()
 def less_logarithm(x: float, logarithm: float) -> float:
-    """x − ln(1 + x), no digits lost where x is small; logarithm: ln(1 + x)."""
+    """Return x − ln(1 + x), without loss of digits where x is small; logarithm: ln(1 + x)."""
     if abs(x) < 3e-3:
         fourth = 1.0 / 4.0 - x * (1.0 / 5.0 - x * (1.0 / 6.0 - x / 7.0))
         return x * x * (1.0 / 2.0 - x * (1.0 / 3.0 - x * fourth))
@@ -201,7 +204,7 @@ def less_logarithm(x: float, logarithm: float) -> float:
 
 @inner(cache=True, forceinline=True)
 def of_trace(x: float, k: Constants) -> Four:
-    """f − c₁₀ x, f′ − c₁₀, f″ and f‴; not a number from Gent's limit on."""
+    """Return f − c₁₀ x, f′ − c₁₀, f″ and f‴; not a number from Gent's limit on."""
     c10, c20, c30, limit = k[4], k[6], k[7], k[9]
     if limit == 0.0:
         rise, second = x * (2.0 * c20 + 3.0 * x * c30), 2.0 * c20 + 6.0 * x * c30
@@ -218,8 +221,8 @@ def of_trace(x: float, k: Constants) -> Four:
 
 @inner()
 def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[float, float]:
-    """ln θ and θ − 1, from growth, ln A, and excess, T − 2: Halley's method, of third order, from what small
-    strains have; with a limit from no further than half of what it leaves."""
+    """Return ln θ and θ − 1 from growth, ln A, and excess, T − 2, by Halley's method, of third order, started
+    with the value of small strains; with Gent's limit at most half of the way to it."""
     c10, c01, volume, limit, trace = k[4], k[5], 0.25 * k[8], k[9], 2.0 + excess
     lame = volume + c01 + of_trace(0.0, k)[2]  # ¼ λ
     x, theta, thinning, step = -lame / (lame + c10 + c01) * growth, 1.0, 0.0, 0.0
@@ -243,8 +246,8 @@ def logarithm_of_thickness(growth: float, excess: float, k: Constants) -> tuple[
 
 @inner()
 def rubber(d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory, Four]:
-    """Return W since rest; θ − 1 and A, which `stiffness_of_rubber` takes; S."""
-    if k[4] + k[5] == 0.0:  # there is no cell
+    """Return W since rest; the memory θ − 1 and A of `stiffness_of_rubber`; S."""
+    if k[4] + k[5] == 0.0:  # absent cell
         return 0.0, (0.0, 1.0), (0.0, 0.0, 0.0, 0.0)
     e1, e2 = (d[0] + d[3] / 12.0) / g[0], (d[1] + d[3] / 12.0) / g[1]
     square = d[2] * d[2] / (area * area)
@@ -275,7 +278,7 @@ def rubber(d: Four, g: Three, area: float, k: Constants) -> tuple[float, Memory,
 def stiffness_of_rubber(
     d: Four, g: Three, area: float, memory: Memory, share: float, k: Constants
 ) -> tuple[Six, Four]:
-    """M + share (D − M) of `rubber`, its 11 22 33 12 13 23 and 14 24 34 44."""
+    """Return M + share (D − M) of `rubber`, 11 22 33 12 13 23 and 14 24 34 44."""
     o = _stiffness_of_membrane(d, g, area, memory, k)
     d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
     _, _, m1, r1 = elongation(d1, g[0] + d1, math.sqrt(g[0]), k[10])
@@ -303,8 +306,8 @@ def stiffness_of_rubber(
 def rubber_by_constants(
     d: Four, g: Three, area: float, memory: Memory, k: Constants, rate: Four, out: np.ndarray
 ) -> None:
-    """Set the derivatives of the power S·ġ by k₀ to k₁₂ in `out` (13,): rates of the energy's own, ∂W/∂k, at
-    which θ is stationary, with θ̇ = −(F_T Ṫ + F_A Ȧ)/F_θ of its condition F = 0."""
+    """Set the derivatives of the power S·ġ by k₀ to k₁₂ in `out` (13,), the rates of ∂W/∂k with W stationary
+    in θ and θ̇ = −(F_T Ṫ + F_A Ȧ)/F_θ from the condition F = 0."""
     if k[4] + k[5] == 0.0:
         return
     theta, a, c01, limit = 1.0 + memory[0], memory[1], k[5], k[9]
@@ -316,14 +319,14 @@ def rubber_by_constants(
     _, f1, f2, _ = of_trace(x, k)
     slope = k[4] + f1 + c01 * trace + theta * f2 + 0.25 * k[8] / theta
     thinning = -(theta * (f2 + c01) * growing + 0.25 * k[8] * swept / a) / slope
-    moved, by_volume = growing + thinning, swept / a + thinning / theta
-    left = 1.0 if limit == 0.0 else 1.0 - x / limit
-    out[4] = moved / left - by_volume
+    stretching, by_volume = growing + thinning, swept / a + thinning / theta
+    remaining = 1.0 if limit == 0.0 else 1.0 - x / limit
+    out[4] = stretching / remaining - by_volume
     out[5] = swept + theta * growing + trace * thinning - 2.0 * by_volume
     if limit == 0.0:
-        out[6], out[7] = 2.0 * x * moved, 3.0 * x * x * moved
+        out[6], out[7] = 2.0 * x * stretching, 3.0 * x * x * stretching
     else:
-        out[9] = -k[4] * x * moved / (limit * limit * left * left)
+        out[9] = -k[4] * x * stretching / (limit * limit * remaining * remaining)
     out[8] = 0.25 * math.log(a * theta) * by_volume
     d1, d2 = d[0] + 0.25 * d[3], d[1] + 0.25 * d[3]
     out[10] = -elongation(d1, g[0] + d1, math.sqrt(g[0]), 1.0)[1] * (rate[0] + 0.25 * rate[3])
@@ -333,7 +336,7 @@ def rubber_by_constants(
 
 @inner(cache=True, forceinline=True)
 def _stiffness_of_membrane(d: Four, g: Three, area: float, memory: Memory, k: Constants) -> Six:
-    """The second derivatives of W by ḡ, times the volume."""
+    """Return the second derivatives of W by ḡ, times the volume."""
     (thinning, a), c01, inverse = memory, k[5], 1.0 / (area * area)
     theta, volume = 1.0 + thinning, 0.25 * k[8]
     c11, c22 = 1.0 + (d[0] + d[3] / 12.0) / g[0], 1.0 + (d[1] + d[3] / 12.0) / g[1]

@@ -1,15 +1,15 @@
 """Springs and dampers of links as compiled loops: measure, stress, force, tangent, rate.
 
-A link joins two masses; its measure is g = r·r of their relative position r = d₀ + du, d₀ at rest, and what
-it stores is a law of g (`lumped.springs.laws`). With S = dW/dg, D = d²W/dg², its ends are pulled by ± 2 S r;
-the tangent is 2 S I + 4 D r rᵀ. The change of g, (2 d₀ + du)·du, loses no digits where du is small. The
-tangent takes S as an argument of its own: that at u, its positive part, none, or what the linearisation
-predicts (Magisano, Leonetti and Garcea 2017). What is linear in a step then is the strain ε of an energy ½ k
-ε², here the elongation: with S + D ġ instead a cantilever took one correction more, a chain five, for after a
-large rotation all links are stretched for a moment, and D with them. Dampers have the stress M ġ, ġ = 2 r·dv.
+A link joins two masses; its measure is g = r·r of their relative position r = d₀ + du, d₀ at rest, and its
+energy a law of g (`lumped.springs.laws`). Its ends are pulled by ± 2 S r, S = dW/dg; the tangent is
+2 S I + 4 D r rᵀ, D = d²W/dg². The change of g, (2 d₀ + du)·du, loses no digits where du is small. The tangent
+takes S as an argument: S at u, its positive part, none, or the prediction of the linearisation (Magisano,
+Leonetti and Garcea 2017). The strain ε of an energy ½ k ε², here the elongation, is then linear in a step:
+with S + D ġ instead a cantilever took one correction more, a chain five, for after a large rotation all links
+are stretched for a moment, and D with them. Dampers have the stress M ġ, ġ = 2 r·dv.
 
-A link of another natural length than d₀ is long, g₀ = d₀·d₀ + δg₀ (`lumped.natural`), has δg − δg₀ in place
-of δg and √g₀ as its length at rest.
+A link whose natural length is not |d₀|, g₀ = d₀·d₀ + δg₀ (`lumped.natural`), has δg − δg₀ in place of δg and
+√g₀ as its length at rest.
 
 Arrays: stress (m,) [N/m]; blocks (b, 3, 3) [N/m], added to; u, v, force (n, 3).
 """
@@ -26,8 +26,8 @@ from sheetbench.numerics.options import inner, njit
 
 
 class LinkArrays(NamedTuple):
-    """nodes (m, 2); offset (m, 3) [m], d₀; rest (2, m), the length [m] and δg₀ [m²]; constants
-    (m,), stiffness [N/m] or damping [N·s/m]; slots (m, 4) block numbers aa, ab, ba, bb."""
+    """Arrays of links. nodes: (m, 2); offset: (m, 3) [m], d₀; rest: (2, m), the length [m] and δg₀ [m²];
+    constants: (m,), stiffness [N/m] or damping [N·s/m]; slots: (m, 4) block numbers aa, ab, ba, bb."""
 
     nodes: np.ndarray
     offset: np.ndarray
@@ -38,14 +38,14 @@ class LinkArrays(NamedTuple):
 
 @inner()
 def difference(u: np.ndarray, nodes: np.ndarray, m: int) -> Vector:
-    """u of the second end of link m less that of the first."""
+    """Return u of the second end of link m less u of the first."""
     a, b = np.uint64(nodes[m, 0]), np.uint64(nodes[m, 1])
     return u[b, 0] - u[a, 0], u[b, 1] - u[a, 1], u[b, 2] - u[a, 2]
 
 
 @inner()
 def measure(u: np.ndarray, links: LinkArrays, m: int) -> tuple[float, float, float, Vector]:
-    """δg, g, the length at rest [m] and r of link m."""
+    """Return δg, g, the length at rest [m] and r of link m."""
     d, offset, rest = difference(u, links.nodes, m), links.offset, links.rest
     r = offset[m, 0] + d[0], offset[m, 1] + d[1], offset[m, 2] + d[2]
     change = (offset[m, 0] + r[0]) * d[0] + (offset[m, 1] + r[1]) * d[1] + (offset[m, 2] + r[2]) * d[2]
@@ -65,7 +65,7 @@ def pull(nodes: np.ndarray, m: int, k: float, r: Vector, force: np.ndarray) -> N
 def add_forces(
     u: np.ndarray, links: LinkArrays, force: np.ndarray, branches: Branches | None = None
 ) -> float:
-    """Add the internal force to `force` (n, 3) [N]; return the springs' own energy [J]."""
+    """Add the internal force to `force` (n, 3) [N]; return the springs' energy [J], branches excluded."""
     energy = 0.0
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links, m)
@@ -83,8 +83,8 @@ def add_forces(
 def energies(
     u: np.ndarray, links: LinkArrays, kind: np.ndarray, kinds: int, layers: int
 ) -> tuple[np.ndarray, float]:
-    """Return the energies [J] of the links by kind, (kinds,), and what of that the layers' mean stretch
-    stores; links between the same columns follow each other, layer by layer."""
+    """Return the energies [J] of the links by kind, (kinds,), and the part stored by the layers' mean
+    stretch; the links between two columns follow each other, layer by layer."""
     out, stretch, summed, firm, met = zeros(kinds), 0.0, 0.0, 0.0, 0
     for m in range(len(links.nodes)):
         change, square, length, _ = measure(u, links, m)
@@ -99,9 +99,9 @@ def energies(
 
 @njit
 def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.ndarray, int]:
-    """Return the largest relative change of length of the links in a layer, of those with the largest and
-    least δg/g₀, at each of the displacements (k, n, 3) [m] before the first with a link no longer than the
-    `shortest` share of its length at rest; and the shortest link then, −1 if none is."""
+    """Return the largest relative change of length of the links in a layer, by the extremes of δg/g₀, at each
+    of the displacements (k, n, 3) [m] before the first with a collapsed link, no longer than the `shortest`
+    share of its length at rest; and the number of the collapsed link, −1 without one."""
     out = empty(len(states))
     for k in range(len(states)):
         least, most, collapsed, which = 0.0, 0.0, shortest * shortest, -1
@@ -120,8 +120,9 @@ def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.
 
 @njit
 def extrapolated(u: np.ndarray, step: np.ndarray, links: LinkArrays, strain: bool) -> np.ndarray:
-    """What the linearisation at u predicts after a step (n, 3) [m], (m,): ½ k e [N] of the elongation e; else
-    the stress S + D ġ, which goes with that of rubber, links along whose sides its cells take off again."""
+    """Return the prediction (m,) of the linearisation at u after a step (n, 3) [m]: ½ k e [N] of the
+    elongation e if `strain`, else the stress S + D ġ, for lattices of rubber, whose cells subtract the energy
+    of links along their sides."""
     out = empty(len(links.nodes))
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links, m)
@@ -149,8 +150,8 @@ def powers_by_constants(u: np.ndarray, v: np.ndarray, links: LinkArrays) -> np.n
 
 @njit
 def add_average_forces(start: np.ndarray, end: np.ndarray, links: LinkArrays, force: np.ndarray) -> None:
-    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the energy stored in it: that
-    of the mean stress on the mean r, as δg is 2 r̄·Δr (Simo and Tarnow 1992, Gonzalez 1996)."""
+    """Add the force over a step from `start` to `end` (n, 3) [m] whose work is the change of energy: the
+    force of the mean stress on the mean r, as δg is 2 r̄·Δr (Simo and Tarnow 1992, Gonzalez 1996)."""
     for m in range(len(links.nodes)):
         change0, square0, length, r0 = measure(start, links, m)
         change1, square1, _, r1 = measure(end, links, m)
@@ -169,15 +170,15 @@ def add_tangent(
     share: float,
     blocks: np.ndarray,
 ) -> None:
-    """Add the tangent of every link with this stress, or with the share of its own where `stress` is empty,
-    and with M + share (D − M), to the 3×3 blocks on and below the diagonal; with what is `extrapolated` D − M
-    is that of it."""
+    """Add the tangent of every link with a stress, or with the share of its stress at u if `stress` is empty,
+    and with M + share (D − M), to the 3×3 blocks on and below the diagonal. extrapolated: whether `stress`
+    holds predicted ½ k e [N], which then also give D − M."""
     flat = blocks.reshape(-1, 9)
-    own = len(stress) == 0
+    stress_at_u = len(stress) == 0
     for m in range(len(links.nodes)):
         change, square, length, r = measure(u, links, m)
         _, at_u, material, rest = elongation(change, square, length, links.constants[m])
-        s, curved = share * at_u if own else stress[m], share * rest
+        s, curved = share * at_u if stress_at_u else stress[m], share * rest
         if extrapolated:
             s /= np.sqrt(square)
             curved = -0.5 * s / square

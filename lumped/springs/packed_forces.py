@@ -1,7 +1,7 @@
-"""The forces of all springs and dampers of a lattice in one compiled pass: those of the families
-(`lumped.springs.families`), to rounding.
+"""The forces of all springs and dampers of a lattice in one compiled pass; they equal the families' forces
+(`lumped.springs.families`) to rounding.
 
-`add_forces` takes arrays (n, 3); `at_places` is for whoever keeps them at the places of a `Packing`, flat.
+`add_forces` takes arrays (n, 3); `at_places` takes flat arrays at the places of a `Packing`.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ def add_forces(
     force: np.ndarray,
 ) -> tuple[float, float]:
     """Add the internal force at displacement u (n, 3) [m] and the damping force at velocity v (n, 3) [m/s],
-    or one of them, to `force` (n, 3) [N]; the energy [J] and the power taken [W]. Rows after those of the
-    masses are left alone."""
+    or one of them, to `force` (n, 3) [N]; return the energy [J] and the power taken [W]. Rows after the
+    masses' rows are unchanged."""
     lay_out(u, packing, scratch.u)
     if damped:
         lay_out(v, packing, scratch.v)
-    found = at_places(NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, scratch)
+    energy_and_power = at_places(NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, scratch)
     add_from_places(scratch.force, packing, force)
-    return found
+    return energy_and_power
 
 
 @njit(**OPTIONS)
 def resist_again(v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch, force: np.ndarray) -> float:
-    """Return the power [W] that dampers take at velocity v (n, 3) [m/s], at the displacement of the last
-    `add_forces`, whose shapes are taken if the packing keeps them; add their force to `force` (n, 3) [N] if
+    """Return the power [W] of dampers at velocity v (n, 3) [m/s], at the displacement of the last
+    `add_forces`, whose shapes are reused if the packing keeps them; add their force to `force` (n, 3) [N] if
     `pushed`."""
     lay_out(v, packing, scratch.v)
     power = at_places(not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, pushed, packing, scratch)[1]
@@ -55,8 +55,8 @@ def resist_again(v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch
 def at_places(
     fresh: bool, elastic: bool, damped: bool, pushed: bool, packing: Packing, at: Scratch
 ) -> tuple[float, float]:
-    """Return energy [J] and power [W] of the displacement and velocity at the places of a packing by a pass
-    that finds shapes (fresh) or takes those that were kept; put the forces there if they are pushed. The
+    """Return energy [J] and power [W] of the displacement and velocity at the places of a packing, by a pass
+    that computes shapes (fresh) or reuses kept ones; set the forces at the places if `pushed`. The
     mid-surface's places are written to."""
     u, v, force, tile = at
     force[:] = 0.0
@@ -109,7 +109,7 @@ def at_places(
 
 @njit(**OPTIONS)
 def lay_out(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
-    """Put a vector (n, 3) at the places of a packing."""
+    """Write a vector (n, 3) to the places of a packing."""
     layers, plane, flat = packing.layers, packing.plane, x.reshape(-1)
     for q in range(THREE):
         for k in range(layers):
@@ -129,7 +129,7 @@ def add_from_places(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
 
 @njit(**OPTIONS)
 def average(packing: Packing, x: np.ndarray) -> None:
-    """Put the layers' mean in the mid-surface's places."""
+    """Write the layers' mean to the mid-surface's places."""
     plane, mid = packing.plane, packing.layers * packing.plane
     for q in range(THREE):
         first = q * packing.size
@@ -142,7 +142,7 @@ def average(packing: Packing, x: np.ndarray) -> None:
 
 @njit(**OPTIONS)
 def share_out(packing: Packing, force: np.ndarray) -> None:
-    """Give the force on the mid-surface to the layers, equally."""
+    """Distribute the force on the mid-surface equally over the layers."""
     plane, mid = packing.plane, packing.layers * packing.plane
     for q in range(THREE):
         first = q * packing.size

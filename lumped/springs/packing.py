@@ -1,10 +1,10 @@
-"""The springs and dampers of a lattice as flat arrays: runs of springs, and what each spring is at rest.
+"""The springs and dampers of a lattice as flat arrays: runs of springs, and tables of rest data.
 
 Masses are numbered plane by plane, y then x within, and after the layers comes their mean, the mid-surface,
-whose cells act on all layers alike. Springs then fall into runs with the same distances between their masses,
-cut where a tile is full, at the same places of every line of masses: so runs that are alike, most of an even
-grid's, share their rest data, which stay in the fastest memory. From the end of a line to the next a run goes
-on over springs without stiffness.
+whose cells act equally on all layers. Springs then fall into runs with constant distances between their
+masses, cut where a tile is full, at equal places of every line of masses: so equal runs, most of an even
+grid's, share their rest data, which stay in the fastest memory. A run continues from the end of a line to the
+next over springs without stiffness.
 """
 
 from __future__ import annotations
@@ -26,24 +26,26 @@ from sheetbench.scenes.objects.grid import Grid
 
 LINKS, CELLS, RUBBER_CELLS, FACES = range(4)
 BLOCK = int(LANES)
-CACHE_LIMIT = 2**18  # numbers of all shapes at most: from beyond the caches they come slower than anew
-BRIDGED = 4  # places at most from one spring of a run to the next
+CACHE_LIMIT = (
+    2**18
+)  # numbers of all kept shapes: computing them is faster than reading from beyond the caches
+BRIDGED = 4  # largest distance in places from one spring of a run to the next
 OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER, FACES: FACE}
 ROWS = {LINKS: LINK_DATA} | {kind: CELL_DATA[law.tag] for kind, law in OF_LAWS.items()}
-ABSENT_SPRING = {  # rest data where there is no spring: a link or a cell of side 1 [m]
+ABSENT_SPRING = {  # rest data of places without a spring: a link or a cell of side 1 [m]
     LINKS: (1.0, 0.0, 0.0, 1.0),
     **dict.fromkeys(OF_LAWS, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0)),
 }
 
 
 class Packing(NamedTuple):
-    """order: (n,) mass at each place; layers, plane: how many planes, and of how many masses; size: places
-    of a component, with some to spare after the mid-surface's for blocks that are not full; mid: whether
-    there are cells on the mid-surface; damped: whether there are dampers; runs: (r, 8), of each what it is,
-    its blocks of springs, where its rest data begin, its first four (or two) masses, and where in a tile its
-    shapes are kept; rest: rest data, flat; keeping: whether shapes are kept for dampers, those of each run in
-    a place of its own; length: of a tile with what is kept; law, face: of cells of
-    rubber and of upright faces, with the rest data, or area and strains where there are none."""
+    """Springs and dampers as flat arrays. order: (n,) mass at each place; layers, plane: number of planes,
+    and of masses in each; size: places of a component, with spare ones after the mid-surface's for blocks
+    that are not full; mid: whether there are cells on the mid-surface; damped: whether there are dampers;
+    runs: (r, 8), kind of each run, number of blocks of springs, start of its rest data, its first four (or
+    two) masses, and place of its shapes in a tile; rest: rest data, flat; keeping: whether shapes are kept
+    for dampers, each run's in a separate place; length: of a tile with the kept shapes; law, face: tags of
+    rubber and of upright faces with the rest data, or of area and strains in a lattice without them."""
 
     order: np.ndarray
     layers: np.uint64
@@ -60,7 +62,7 @@ class Packing(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Where forces are computed: displacement, velocity and force of every place, flat, and a tile."""
+    """Work arrays for forces: displacement, velocity and force of every place, flat, and a tile."""
 
     u: np.ndarray
     v: np.ndarray
@@ -69,15 +71,15 @@ class Scratch(NamedTuple):
 
 
 def scratch(packing: Packing) -> Scratch:
-    """Room for whoever asks for forces."""
+    """Return work arrays for the forces of a packing."""
     u, v, force = np.zeros((3, 3 * int(packing.size)))
     return Scratch(u, v, force, np.zeros(packing.length))
 
 
 class Topology(NamedTuple):
-    """Where springs of one kind stand, whatever their rest data. Those between the same masses are one:
-    number (m,) of each; of each (s,) its run and its place in it; runs (r, 5): blocks of springs, and the
-    first spring's masses."""
+    """Runs of springs of one kind, without rest data. Springs and dampers between equal masses share a place.
+    number: (m,) of each spring's place; run, place: (s,) run of each place and position in the run; runs: (r,
+    5) number of blocks, and the first spring's masses."""
 
     number: np.ndarray
     run: np.ndarray
@@ -86,7 +88,7 @@ class Topology(NamedTuple):
 
 
 def pack(lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family]) -> Packing:
-    """Springs and dampers of a lattice."""
+    """Return the springs and dampers of a lattice as flat arrays."""
     nx, ny, layers = lattice.grid
     plane = nx * ny
     runs, rest, used, mid = [], [np.empty(0)], 0, False
@@ -95,7 +97,7 @@ def pack(lattice: Lattice, springs: Sequence[Family], dampers: Sequence[Family])
         if not parts:
             continue
         law = getattr(parts[0][0], "law", None)
-        kind = next((kind for kind, known in OF_LAWS.items() if known is law), LINKS)
+        kind = next((kind for kind, of_kind in OF_LAWS.items() if of_kind is law), LINKS)
         nodes = {id(family.nodes): family.nodes for family, _ in parts}
         mid = mid or parts[0][0].nodes[0].size > 4
         topology = _topology(lattice.grid, *nodes.values())
@@ -135,8 +137,8 @@ def _in_blocks(count: int) -> int:
 
 
 def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
-    """Set where the shapes of each run (r, 8) are kept, all in one place where none are requested again, or
-    there are too many; whether each has its own, and a tile's length."""
+    """Set the place of each run's shapes in runs (r, 8), one place for all if there are no dampers or too
+    many shapes; return whether each run has a separate place, and a tile's length."""
     rows = np.where(runs[:, 0] >= CELLS, CELL_SHAPE, LINK_SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)
     keeping = damped and STRIDE * int(before[-1]) <= CACHE_LIMIT
@@ -165,55 +167,55 @@ def _add_data(family: Family, damped: bool, at: np.ndarray, data: np.ndarray) ->
 
 @cached(last=PATTERN_CACHE, most=SHARED_UP_TO, size=lambda grid, *_: math.prod(grid))
 def _topology(grid: Grid, *nodes: np.ndarray) -> Topology:
-    """The topology of springs (m, 2) or (m, 4, p) of one kind, by the distances between their masses, then in
-    order; cut into runs."""
+    """Return the topology of springs (m, 2) or (m, 4, p) of one kind, sorted by the distances between their
+    masses, then by their first mass, and cut into runs."""
     width, _, layers = grid
     plane = grid[0] * grid[1]
-    every = []  # a mass n = c layers + k of column c is at place k plane + c, a column's mean behind them
+    places = []  # a mass n = c layers + k of column c is at place k plane + c, a column's mean behind them
     for part in nodes:
         first = part[:, :, 0] if part.ndim == 3 else part
         layer = layers if part.ndim == 3 and part.shape[2] > 1 else first % layers
-        every.append(layer * plane + first // layers)
-    at = np.concatenate(every)
+        places.append(layer * plane + first // layers)
+    at = np.concatenate(places)
     total = (layers + 1) * plane
-    apart = at[:, 1:] - at[:, :1]
-    distances = apart[:, 0]
-    for column in apart.T[1:]:
+    to_first = at[:, 1:] - at[:, :1]
+    distances = to_first[:, 0]
+    for column in to_first.T[1:]:
         distances = distances * (2 * total + 1) + column
     order = np.lexsort((at[:, 0], distances))
     first, distances = at[order, 0], distances[order]
-    fresh = np.append(True, (first[1:] != first[:-1]) | (distances[1:] != distances[:-1]))
+    distinct = np.append(True, (first[1:] != first[:-1]) | (distances[1:] != distances[:-1]))
     number = np.empty(len(order), dtype=int)
-    number[order] = np.cumsum(fresh) - 1
-    first, distances = first[fresh], distances[fresh]
+    number[order] = np.cumsum(distinct) - 1
+    first, distances = first[distinct], distances[distinct]
     lines, columns = max(1, WIDTH // width), -(-width // -(-width // WIDTH))
-    within = first % plane
-    tile = [first // plane, within // width // lines, distances]
+    in_plane = first % plane
+    tile = [first // plane, in_plane // width // lines, distances]
     if width > WIDTH:
-        tile.append(within % width // columns)
-    parted = np.diff(first) > BRIDGED
+        tile.append(in_plane % width // columns)
+    cut = np.diff(first) > BRIDGED
     for part in tile:
-        parted |= part[1:] != part[:-1]
-    begins = np.append(0, np.flatnonzero(parted) + 1)
-    run = np.append(0, np.cumsum(parted))
+        cut |= part[1:] != part[:-1]
+    begins = np.append(0, np.flatnonzero(cut) + 1)
+    run = np.append(0, np.cumsum(cut))
     runs = np.zeros((len(begins), 5), dtype=int)
     runs[:, 0] = _in_blocks(first[np.append(begins[1:], len(first)) - 1] - first[begins] + 1)
-    runs[:, 1 : 1 + at.shape[1]] = at[order[fresh][begins]]
+    runs[:, 1 : 1 + at.shape[1]] = at[order[distinct][begins]]
     return Topology(number, run, first - first[begins][run], runs)
 
 
 def _tables(kind: int, topology: Topology, data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where the rest data of each run begin, (r,), and the rest data, flat, in tables (rows, STRIDE), from
-    those of the springs (rows, s): runs that are alike have one table."""
+    """Return the start of each run's rest data, (r,), and the rest data, flat, in tables (rows, STRIDE), from
+    the springs' rest data (rows, s); equal runs have one table."""
     absent = np.zeros((len(data), STRIDE))
     absent[: len(ABSENT_SPRING[kind])] = np.array(ABSENT_SPRING[kind])[:, None]
-    begins, tables, found = [], list[np.ndarray](), dict[bytes, int]()
+    begins, tables, numbers = [], list[np.ndarray](), dict[bytes, int]()
     data = np.vstack([data, topology.place]) + 0.0  # no negative zeros
     ends = np.searchsorted(topology.run, np.arange(len(topology.runs) + 1))
     for first, last in pairwise(ends.tolist()):
-        own = data[:, first:last]
-        begins.append(found.setdefault(own.tobytes(), len(found)))
+        run = data[:, first:last]
+        begins.append(numbers.setdefault(run.tobytes(), len(numbers)))
         if begins[-1] == len(tables):
             tables.append(absent.copy())
-            tables[-1][:, topology.place[first:last]] = own[:-1]
+            tables[-1][:, topology.place[first:last]] = run[:-1]
     return absent.size * np.array(begins), np.concatenate(tables).ravel()

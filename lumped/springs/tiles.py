@@ -1,19 +1,18 @@
 """Runs of springs at constant distances between their masses, a tile at a time, which compilers vectorise.
 
-With the masses numbered plane by plane (`lumped.springs.packing`), springs of one direction join mass a + i
-to mass a + i + d for i = 0, 1, …: no list of masses is looked at. A tile holds up to WIDTH springs, a
-quantity of all of them a row. A spring's shape, which is what takes divisions and roots, is found once for a
-displacement and kept behind the rows; dampers are asked for any number of velocities after that. Forces go to
-the first ends and to the second ones in loops of their own, since in one the ends of neighbours meet. Sums
-may be reassociated and products fused with them, in an order that only the code settles, not the threads; no
-assumption is made about numbers that overflow.
+The masses are numbered plane by plane (`lumped.springs.packing`), so that springs of one direction join mass
+a + i to mass a + i + d for i = 0, 1, … without a list of masses. A tile holds up to WIDTH springs, a row for
+each quantity. A spring's shape, which needs divisions and roots, is computed once for a displacement and kept
+behind the rows, for dampers at any number of velocities. Forces go to the first ends and to the second ends
+in separate loops, since neighbours share ends. Sums may be reassociated and products fused with them, in an
+order that depends on the code alone, not on threads; no assumption is made about numbers that overflow.
 
 Vectors are flat, component by component: x, y and z of every mass in turn. Indices are unsigned, since a
 signed one might count from the end, which a vector cannot.
 
-Links. With r = d0 + du, the relative position, n = r/|r| and L the rest length, a link pulls with
-k (|r| − L) n, and its damper with c (n·dv) n. Rows of rest data: d0, L, c, k. Kept of every link: n; the pull
-is a row of the tile. A place without a link has no stiffness, and TINY keeps it finite.
+Links. A link pulls with k (|r| − L) n, its damper with c (n·dv) n; r = d0 + du is the relative position,
+n = r/|r| and L the rest length. Rows of rest data: d0, L, c, k. Kept of every link: n; the pull is a row of
+the tile. A place without a link has no stiffness, and TINY keeps it finite.
 
 Cells. Rows of a tile: changes of the mean sides a and b, or their velocities (0 to 5), and the forces on a
 and b (6 to 11), of a law of s those on q (15 to 17). Rows of rest data: a, b (0 to 5), a·a, b·b, a·b (6 to
@@ -37,17 +36,17 @@ from sheetbench.numerics.options import inner, njit
 
 WIDTH = 128
 LANES = np.uint64(8)  # springs of a run come in blocks of so many, as wide as the widest vectors
-NUMBA_TRUE: Any = np.True_  # for Python's own numba compiles a kernel once for each
+NUMBA_TRUE: Any = np.True_  # with Python's True and False numba would compile a kernel for each
 NUMBA_FALSE: Any = np.False_
 STRIDE = WIDTH + 8  # of rows; a power of two would put them all in the same few places of a cache
 ROWS = tuple(np.uint64(row * STRIDE) for row in range(24))
-# kinds of memory that never overlap (`numerics.aliasing`): what is only read (rest data, displacements,
-# velocities), what springs keep of their shape, rows of a tile, and the three components of forces
+# kinds of memory that never overlap (`numerics.aliasing`): read-only data (rest data, displacements,
+# velocities), kept shapes of springs, rows of a tile, and the three components of forces
 GIVEN, KEPT, ROW, FORCE_X, FORCE_Y, FORCE_Z = range(6)
 OPTIONS: dict[str, Any] = {"fastmath": {"contract", "reassoc", "arcp", "nsz"}}
 R0, R3, R4, R5, R6, R9, R10, R11 = (ROWS[row] for row in (0, 3, 4, 5, 6, 9, 10, 11))
 LAW = 17  # row of rest data from which on the constants of a cell's law are
-LINK_DATA, LINK_SHAPE = 6, 3  # rows of rest data, and of what is kept
+LINK_DATA, LINK_SHAPE = 6, 3  # rows of rest data, and of kept shapes
 CELL_DATA, CELL_SHAPE = {law.tag: LAW + law.count for law in LAWS}, 9
 USED = 18  # rows of a tile
 TINY = 1e-36  # m²
@@ -67,8 +66,8 @@ def stretch_links(
     tile: np.ndarray,
     at: int,
 ) -> float:
-    """Keep the directions at displacement u, and put this share of the springs' pulls in the first row; the
-    energy."""
+    """Set the directions at displacement u, and the first row to a share of the springs' pulls; return the
+    energy [J]."""
     energy = 0.0
     for i in range(blocks * LANES):
         ox, oy, oz = load_each(GIVEN, rest, t + i, STRIDE, 3)
@@ -92,7 +91,7 @@ def stretch_links(
 def resist_links(
     v: np.ndarray, rest: np.ndarray, t: int, a: int, b: int, size: int, blocks: int, tile: np.ndarray, at: int
 ) -> float:
-    """Add the pulls of the dampers at velocity v to the first row; the power taken."""
+    """Add the pulls of the dampers at velocity v to the first row; return the power taken [W]."""
     power = 0.0
     for i in range(blocks * LANES):
         n = load_each(KEPT, tile, at + i, STRIDE, 3)
@@ -126,7 +125,7 @@ def pull_ends(
 def gather_sides(
     x: np.ndarray, c0: int, c1: int, c2: int, c3: int, size: int, blocks: int, tile: np.ndarray
 ) -> None:
-    """a and b from the corners' x, into the first rows."""
+    """Set the first rows to a and b of the corners' x."""
     for i in range(blocks * LANES):
         k, m = load_each(GIVEN, x, c0 + i, size, 3), load_each(GIVEN, x, c1 + i, size, 3)
         n, o = load_each(GIVEN, x, c2 + i, size, 3), load_each(GIVEN, x, c3 + i, size, 3)
@@ -140,7 +139,7 @@ def gather_sides(
 def push_corner(
     on_a: float, on_b: float, corner: int, size: int, blocks: int, tile: np.ndarray, force: np.ndarray
 ) -> None:
-    """Add on_a and on_b (±½) of the forces on the sides to those on one corner."""
+    """Add the forces on the sides, times on_a and on_b (±½), to the force on one corner."""
     for i in range(blocks * LANES):
         a, b = load_each(ROW, tile, R6 + i, STRIDE, 3), load_each(ROW, tile, R9 + i, STRIDE, 3)
         x, y, z = on_a * a[0] + on_b * b[0], on_a * a[1] + on_b * b[1], on_a * a[2] + on_b * b[2]
@@ -152,7 +151,7 @@ def stretch_cells(
     law: Tag, x: np.ndarray, corners: Places, size: int, share: float, t: int, blocks: int, tile: np.ndarray,
     at: int,
 ) -> float:  # fmt: skip
-    """Keep the shapes, and put this share of the springs' forces in the rows of forces; the energy. The
+    """Set the shapes, and the rows of forces to a share of the springs' forces; return the energy [J]. The
     changes of the sides are in the tile; x and the corners' places give q of a law that has s."""
     rest, energy = law.constants, 0.0
     for i in range(blocks * LANES):
@@ -193,7 +192,7 @@ def stretch_cells(
 
 @njit(**OPTIONS)
 def push_warp(law: Tag, corners: Places, size: int, blocks: int, tile: np.ndarray, force: np.ndarray) -> None:
-    """Add the forces on q, of a law that has s, to those on the corners."""
+    """Add the forces on q, for a law that has s, to the corners' forces."""
     if measures(law) < 4:
         return
     sign = 1.0
@@ -206,14 +205,14 @@ def push_warp(law: Tag, corners: Places, size: int, blocks: int, tile: np.ndarra
 
 @njit(**OPTIONS)
 def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: int) -> float:
-    """Add the forces of the dampers to the rows of forces; the power taken."""
+    """Add the forces of the dampers to the rows of forces; return the power taken [W]."""
     power = 0.0
     for i in range(blocks * LANES):
         a, b = load_each(KEPT, tile, at + i, STRIDE, 3), load_each(KEPT, tile, at + R3 + i, STRIDE, 3)
         n1, n2, n3 = load_each(KEPT, tile, at + R6 + i, STRIDE, 3)
         u, w = load_each(ROW, tile, R0 + i, STRIDE, 3), load_each(ROW, tile, R3 + i, STRIDE, 3)
         k = load_each(GIVEN, rest, t + R10 + i, STRIDE, 7)
-        r1 = a[0] * u[0] + a[1] * u[1] + a[2] * u[2]  # half the rates of a·a and b·b, that of a·b
+        r1 = a[0] * u[0] + a[1] * u[1] + a[2] * u[2]  # half the rates of a·a and b·b, the rate of a·b
         r2 = b[0] * w[0] + b[1] * w[1] + b[2] * w[2]
         r3 = (a[0] * w[0] + a[1] * w[1] + a[2] * w[2]) + (b[0] * u[0] + b[1] * u[1] + b[2] * u[2])
         growing = n1 * r1 + n2 * r2 - n3 * r3  # Ȧ

@@ -1,4 +1,4 @@
-"""What a static solve answers with: the `Solution` where its path has ended."""
+"""The `Solution` of a static solve, from the end of its path."""
 
 from __future__ import annotations
 
@@ -24,11 +24,13 @@ def solution(
     seconds: tuple[float, float],
     requested: dict[str, Any],
 ) -> Solution:
-    """The answer where a path has ended; requested: the options that are not their defaults."""
+    """Return the solution at the end of a path; requested: the options that are not their defaults."""
     state, assembly = path.state, problem.assembly  # they outlive the solve
     u, lattice = state.u, assembly.lattice
     linear = requested.get("linear", False)
-    exerted, energies = _of_small_displacements(problem, state) if linear else _at(problem, state)
+    exerted, energies = (
+        _of_small_displacements(problem, state) if linear else _equilibrium_forces(problem, state)
+    )
     reactions, on_masses = problem.constraints.reactions(exerted)
     coupling = assembly.coupling
     wrenches = coupling.wrenches(u, exerted) if coupling is not None else {}
@@ -48,7 +50,7 @@ def solution(
         iterations=path.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=partial(_sampled, lattice, u),
+        sample=partial(_sample, lattice, u),
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed)),
@@ -62,20 +64,20 @@ def solution(
     )
 
 
-def _sampled(lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _sample(lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
     return MidSurface(lattice, points).of(u)
 
 
-def _at(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
-    """What is exerted on masses and rows at an equilibrium, internal less external force (size, 3) [N], and
-    the energies [J]."""
+def _equilibrium_forces(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
+    """Return the force that holds masses and rows at an equilibrium, internal less external force (size, 3)
+    [N], and the energies [J]."""
     energies = state.energies or problem.survey(state.u, state.load_factor).energies
     return -problem.forces(state, state.load_factor).force, energies
 
 
 def _of_small_displacements(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:
     """Return forces K u + f₀ − f (size, 3) [N] and energies E₀ + f₀·u + ½ u·K u [J] of small displacements
-    (`flat_step`), E₀ and f₀ those of the flat sheet, which has some where it is not flat at rest."""
+    (`flat_step`), E₀ and f₀ energy and force of the flat sheet, not 0 if the sheet is not flat at rest."""
     flat = np.zeros_like(state.u)
     bent = problem.system.apply(problem.tangent(flat, 0.0), state.u)
     external = problem.external(flat, state.load_factor)

@@ -1,8 +1,8 @@
-"""What a lattice's forces leave over: supports, motions, held bases and loads summed (`Balance`).
+"""Balance of the forces and moments of supports, motions, held bases and loads on a lattice (`Balance`).
 
-Springs and joints are central or turn with what they join, so that their forces on masses and rows cancel,
-and so do their moments: what is left over is the residual of the free unknowns, and what rounding leaves of
-links as stiff as these. Springs of unequal stiffness along x, y and z are neither, and keep no moments.
+Springs and joints are central or turn with the masses that they join, so that their forces on masses and rows
+cancel, and so do their moments: the sums are the residual of the free unknowns and the rounding of the links'
+forces. Springs of unequal stiffness along x, y and z are neither, and keep no moments.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ def balance(
     exerted: np.ndarray,
     linear: bool = False,
 ) -> Balance:
-    """The balance of an equilibrium: its reactions (3,) [N], and what is exerted on masses and rows, internal
-    less external force (size, 3) [N]; linear: on the flat sheet."""
+    """Return the balance of an equilibrium. reactions: (3,) [N] by name; exerted: (size, 3) [N] force that
+    holds masses and rows, internal less external; linear: on the flat sheet."""
     lattice, coupling = problem.assembly.lattice, problem.assembly.coupling
     n, share = lattice.mass_count, state.load_factor
     at = np.zeros_like(state.u) if linear else state.u
@@ -41,8 +41,8 @@ def balance(
     if coupling is not None:
         moment += coupling.held_moment(at, exerted, Drive(share))
         moment += coupling.moment(at, external)
-    known = None if linear else state.residual
-    size = (known or problem.residual(at, share)).size
+    residual = None if linear else state.residual
+    size = (residual or problem.residual(at, share)).size
     # a sum of n numbers is at most √n times their norm, in which residuals are measured
     allowed = math.sqrt(len(at)) * max(LIMITS.tolerance * size, problem.imbalance_floor(state))
     arm = math.sqrt(np.einsum("ij,ij->i", places, places).max())

@@ -14,11 +14,35 @@ from sheetbench.scenes import AnyScene, require_static, scene_of
 
 
 def buckling(scene: AnyScene, calibration: Calibration | None = None, count: int = 1) -> Buckling:
-    """The `count` lowest factors of a scene's dead loads at which its flat lattice buckles, and their shapes.
+    """Return the lowest factors of a scene's dead loads at which its flat lattice buckles, and their shapes.
 
-    calibration: as of `lumped.solve`. Raises SceneError when nothing stops a rigid motion, BadInput for loads
-    that follow the sheet, bend it at once or do not soften it, and for actuators and supports that bend it.
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        Scene, the name of one in the catalogue, or the path of its file.
+    calibration : Calibration, optional
+        Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
+    count : int, default 1
+        Number of factors.
 
+    Returns
+    -------
+    Buckling
+        Load factors (count,) [-], rising, and shapes.
+
+    Raises
+    ------
+    SceneError
+        If no support stops a rigid motion.
+    BadInput
+        If loads follow the sheet, bend it at once or do not soften it, or actuators or supports bend it.
+
+    Notes
+    -----
+    Linear buckling about the flat sheet (`sheetbench.numerics.continuation.buckling`).
+
+    Examples
+    --------
     >>> import lumped
     >>> from sheetbench.scenes import load
     >>> on_edge = load("one-edge-clamped").replace(gravity={"acceleration": (0.0, -9.81, 0.0)})

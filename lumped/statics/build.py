@@ -1,4 +1,4 @@
-"""A scene's lattice under its supports and loads, from its springs."""
+"""Construction of a scene's lattice under its supports and loads."""
 
 from __future__ import annotations
 
@@ -26,9 +26,31 @@ def build_problem(
     weights: Weights = "tributary",
     same: Problem | None = None,
 ) -> Problem:
-    """The lattice of a scene under its supports and loads. same: of this scene with other springs, whose
-    supports and loads serve again where they are on the same lattice. Raises BadInput if no mass is left to
-    move, and for springs of cells that are all alike where the scene's are not."""
+    """Return the lattice of a scene under its supports and loads.
+
+    Parameters
+    ----------
+    scene : Scene
+        Sheet, material, supports, loads, actuators and obstacles.
+    calibration : Calibration
+        Springs of the lattice.
+    weights : {"tributary", "full"}, default "tributary"
+        Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
+    same : Problem, optional
+        Problem of this scene with other springs, whose supports and loads are reused on an equal lattice.
+
+    Returns
+    -------
+    Problem
+        Residual, tangent and factors of the lattice at displacements (n, 3) [m] and load factors.
+
+    Raises
+    ------
+    BadInput
+        If no mass is free to move.
+    Impossible
+        If the springs are of equal cells and the scene's cells differ.
+    """
     fibres_alone = calibration.of_material and scene.varied_by == FIBRES and not scene.shaped_by
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
@@ -38,12 +60,12 @@ def build_problem(
     lines = assembly.lattice.lines
     if (state := natural_of_cells(stretched(scene, assembly), *(line.at for line in lines))) is not None:
         assembly.grow(state)
-    alike = same is not None and same.assembly.lattice is assembly.lattice
-    if same is not None and alike and couple is None and assembly.natural is None:
+    on_lattice = same is not None and same.assembly.lattice is assembly.lattice
+    if same is not None and on_lattice and couple is None and assembly.natural is None:
         return Problem(scene, assembly, same.constraints, same.loads, same.items)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    items = tuple(Contact(scene, assembly, *each) for each in scene.named_obstacles().items())
+    items = tuple(Contact(scene, assembly, *obstacle) for obstacle in scene.named_obstacles().items())
     return Problem(scene, assembly, constraints, Loads(scene, assembly), items)

@@ -1,12 +1,11 @@
-"""Large lattices from smaller ones: where the corrections of one start is the equilibrium of the lattice of
-half as many cells a side, and so on down, interpolated by cubic splines.
+"""Starts of large lattices from smaller ones: the equilibrium of the lattice with half as many cells a side,
+computed from a smaller one in turn, and interpolated by cubic splines.
 
-Two factorisations are left for each lattice, one to correct with (`numerics.direct.iterated`) and one of the
-equilibrium's own tangent, which tells its stability. The branch is the smaller lattice's: only from a path
-that neither snapped nor ended early, to a stable equilibrium that there is no doubt about. Anything else, and
-a start from which the corrections fail or that leads to an unstable equilibrium, goes the whole path as small
-lattices do. The smaller lattices have `consistent` springs, whose answers hardly depend on the grid; so must
-the lattice's own be.
+Each lattice needs two factorisations, one for the corrections (`numerics.direct.iterated`) and one of the
+equilibrium's tangent, whose signs decide its stability. The branch is the smaller lattice's, used only after
+a path that neither snapped nor ended early, to a stable equilibrium without notes. Otherwise, and if the
+corrections fail or lead to an unstable equilibrium, the whole path is traced as on small lattices. The
+smaller lattices have `consistent` springs, whose answers hardly depend on the grid; so must the large one.
 """
 
 from __future__ import annotations
@@ -21,11 +20,11 @@ from lumped.lattice import Lattice
 from sheetbench.scenes import Scene
 
 METHOD = "consistent"
-FROM = 5_000  # unknowns from which smaller lattices cost less than the factorisations they spare
+FROM = 5_000  # unknowns from which smaller lattices cost less than the factorisations they save
 
 
-def halved(scene: Scene, calibration: Calibration) -> Calibration | None:
-    """Springs of the lattice with half as many cells a side; None where there is none to start from."""
+def coarser_springs(scene: Scene, calibration: Calibration) -> Calibration | None:
+    """Return springs of the lattice with half as many cells a side, None if it cannot serve as a start."""
     nx, ny, layers = calibration.grid
     other = calibration.method != METHOD or calibration.cells is not None
     if other or layers != 2 or scene.actuators:
@@ -37,18 +36,18 @@ def halved(scene: Scene, calibration: Calibration) -> Calibration | None:
     return replace(coarser, masses=calibration.masses)
 
 
-def refined(coarse: Lattice, u: np.ndarray, fine: Lattice) -> np.ndarray:
-    """Displacement (n, 3) [m] of the fine lattice's masses from that of the coarse one's: the mid-surface,
-    and the layers' distances from it in proportion."""
+def interpolated_displacement(coarse: Lattice, u: np.ndarray, fine: Lattice) -> np.ndarray:
+    """Return the displacement (n, 3) [m] of the fine lattice's masses from the coarse lattice's: the
+    mid-surface's by splines, and the layers' distances from it in proportion."""
     columns = u[: coarse.mass_count].reshape(coarse.grid[1], coarse.grid[0], 2, 3)
     ratio = fine.layer_distance / coarse.layer_distance
-    middle = _splined(coarse, columns.mean(axis=2), fine)
-    half = _splined(coarse, 0.5 * ratio * (columns[:, :, 1] - columns[:, :, 0]), fine)
+    middle = _interpolated_field(coarse, columns.mean(axis=2), fine)
+    half = _interpolated_field(coarse, 0.5 * ratio * (columns[:, :, 1] - columns[:, :, 0]), fine)
     return np.stack([middle - half, middle + half], axis=2).reshape(-1, 3)
 
 
-def _splined(coarse: Lattice, field: np.ndarray, fine: Lattice) -> np.ndarray:
-    """A field (ny, nx, 3) at the coarse grid's lines at those of the fine one."""
+def _interpolated_field(coarse: Lattice, field: np.ndarray, fine: Lattice) -> np.ndarray:
+    """Return a field (ny, nx, 3) on the coarse grid's lines, interpolated to the fine grid's lines."""
     from scipy.interpolate import make_interp_spline
 
     for axis, which in ((0, 1), (1, 0)):

@@ -1,5 +1,5 @@
-"""A step of Newton's method on a lattice and the force that is unbalanced where it leads, as compiled loops:
-with u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0."""
+"""A step of Newton's method on a lattice and the unbalanced force after it, as compiled loops: for
+u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def advance(
 ) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
     """Return the displacement (n, 3) [m] after a step (m,) [m] of the unknowns and the motion `moved` (n, 3)
     [m] of the supports, empty without one; the largest component of the change [m]; the internal force (n, 3)
-    [N] there; and the stresses that the linearisation at u predicts there."""
+    [N] after it; and the stresses that the linearisation at u predicts."""
     move = product(free, step).reshape(u.shape)
     after, length = empty(u.shape), 0.0
     for i in range(len(u)):
@@ -46,8 +46,8 @@ def unbalanced_force(
     n: int,
 ) -> tuple[np.ndarray, np.ndarray, float, float]:
     """Return load_factor × load less internal force r (k, 3) [N], Tᵀ r (n,), its norm, and the norm of the
-    external forces plus those of the supports' and, `driving`, of a natural state [N]. held: (k, 3) bool,
-    what supports hold; free: T."""
+    external forces plus the norms of the supports' and, `driving`, of a natural state's forces [N]. held: (k,
+    3) bool, components that supports hold; free: T."""
     out = empty(internal.shape)
     total = loads = supports = 0.0
     for i in range(len(out)):

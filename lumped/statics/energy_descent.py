@@ -1,10 +1,10 @@
-"""Descent in energy to a stable equilibrium, where the load path ends or the equilibrium found is unstable.
+"""Descent in energy to a stable equilibrium, if the load path ends or its equilibrium is unstable.
 
 Minimises Π(q) = elastic energy − λ f·u by Newton steps with a backtracking line search (Armijo). The
-true tangent serves where it is positive definite; elsewhere the tangent with compressed links' and cells'
+true tangent serves if it is positive definite; otherwise the tangent with compressed links' and cells'
 stresses set to zero (Teran et al. 2005). Links then add nothing negative, but an area spring's ∇²a is
-indefinite in its plane, and some are of negative stiffness (ν < 1/3): the sum is positive while strains are
-small, and a direction that is none of descent ends the search. Every accepted step lowers the energy, so the
+indefinite in its plane, and some have negative stiffness (ν < 1/3): the sum is positive while strains are
+small, and a direction that does not descend ends the search. Every accepted step lowers the energy, so the
 end is a local minimum or the step limit. Only for dead loads and central springs: others have no energy.
 """
 
@@ -21,34 +21,34 @@ from sheetbench.numerics.continuation.path import LoadStepFailed
 from sheetbench.numerics.direct import SOLVED, Factor, SingularMatrixError
 
 STEPS = 300
-DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances, of which the first that leads away from a saddle serves
+DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances; the first that leads away from a saddle is used
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again
 
 
-def settle(path: LatticePath, load_factor: float) -> LatticeState:
-    """Return the stable equilibrium at a load factor that descent reaches from a path's last one, from beside
-    it where that is at this load factor and unstable. Raises StepFailed where there is none."""
+def descend(path: LatticePath, load_factor: float) -> LatticeState:
+    """Return the stable equilibrium at a load factor that descent reaches from a path's last one, disturbed
+    if it is at this load factor and unstable. Raises LoadStepFailed without one."""
     problem, state, factor = path.structure, path.state, path.factor
     assert isinstance(problem, Problem)
     problem.assembly.require_energy()
     try:
         if load_factor != path.load_factor:
             u = problem.project_to_supports(state.u, load_factor)
-            state, factor = _descend(path, problem, u, load_factor), None
+            state, factor = _minimise(path, problem, u, load_factor), None
         factor = factor or path.factored(path.tangent(state, load_factor))
         if load_factor != path.load_factor and not factor.negative:
             return state
-        for share in DISTURBANCES:  # of a saddle, as a flat sheet that has buckled
+        for share in DISTURBANCES:  # a saddle is e.g. a flat sheet that has buckled
             u = _disturbed(problem, state, factor, share)
-            found = _descend(path, problem, problem.project_to_supports(u, load_factor), load_factor)
-            if not problem.assembly.natural or not path.factored(path.tangent(found, load_factor)).negative:
+            minimum = _minimise(path, problem, problem.project_to_supports(u, load_factor), load_factor)
+            if not problem.assembly.natural or not path.factored(path.tangent(minimum, load_factor)).negative:
                 break
-        return found
+        return minimum
     except SingularMatrixError as error:
         raise LoadStepFailed(Status.SINGULAR, str(error), 0.0) from None
 
 
-def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
+def _minimise(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
     wait, drive = 0, Drive(load_factor)
     for _ in range(STEPS):
         residual = problem.residual(u, load_factor)
@@ -67,7 +67,9 @@ def _descend(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: fl
         move = problem.expand(direction)
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
         start, end = (u, drive), (u + share * move, drive)
-        share *= min((one.near(end).share_of_way(one.near(start)) for one in problem.contacts), default=1.0)
+        share *= min(
+            (contact.near(end).share_of_way(contact.near(start)) for contact in problem.contacts), default=1.0
+        )
         before = problem.potential(u, load_factor)
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= before + 1e-4 * share * slope:
@@ -85,10 +87,9 @@ def _failed(reason: str) -> LoadStepFailed:
 
 
 def _disturbed(problem: Problem, state: LatticeState, factor: Factor, share: float) -> np.ndarray:
-    """Displacement beside an unstable equilibrium, moved along a direction of negative curvature.
+    """Return the displacement of an unstable equilibrium moved along a direction of negative curvature.
 
-    The move is this share of the layer distance; of its two signs the one of lower energy (if even the
-    first).
+    The move is the given share of the layer distance, with the sign of lower energy (if equal the first).
     """
     n, start = problem.system.unknowns, np.random.default_rng(0).standard_normal(problem.system.unknowns)
     inverse = LinearOperator((n, n), matvec=factor.solve, dtype=float)
@@ -104,7 +105,8 @@ def _disturbed(problem: Problem, state: LatticeState, factor: Factor, share: flo
 def _definite_factor(
     path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float, wait: int
 ) -> tuple[Factor, int]:
-    """Factors of a positive definite tangent and for how many steps to stay with the projected one."""
+    """Return factors of a positive definite tangent, and the number of steps to stay with the projected
+    one."""
     if wait == 0:
         try:
             factor = path.factored(problem.tangent(u, load_factor))

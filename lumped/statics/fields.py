@@ -19,12 +19,12 @@ from lumped.springs.law_table import FACE
 from sheetbench.answers.solution import FieldMesh
 
 NO_FIELDS: Mapping[str, np.ndarray] = {}
-SMALL = 1e-12  # of a displacement: what is left that is not linear in it
+SMALL = 1e-12  # share of a displacement at which springs are evaluated as linear
 
 
 class LatticeMesh(FieldMesh):
-    """A mesh with its fields that is made when it is first looked at: most answers are requested a few points
-    and forces only."""
+    """A mesh with fields that are computed at their first use: most answers need a few points and forces
+    only."""
 
     def __init__(self, make: Callable[[], FieldMesh]):
         self.__dict__["_make"] = make
@@ -32,7 +32,7 @@ class LatticeMesh(FieldMesh):
     def __getattr__(self, name: str) -> Any:
         if name not in FieldMesh.__dataclass_fields__:
             raise AttributeError(name)
-        self.__dict__.update(vars(self.__dict__["_make"]()))  # which stays: several threads may look at once
+        self.__dict__.update(vars(self.__dict__["_make"]()))  # `_make` stays, for concurrent threads
         return self.__dict__[name]
 
     def __reduce__(self) -> tuple[type[FieldMesh], tuple[Any, ...]]:
@@ -47,9 +47,9 @@ def field_mesh(
     linear: bool = False,
     more: Mapping[str, np.ndarray] = NO_FIELDS,
 ) -> FieldMesh:
-    """Mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N];
-    rows of actuators after those of the masses are left out. share: of a natural state; linear: of a solution
-    for small displacements, of which the springs have a small part; more: fields of masses (n,)."""
+    """Return mesh and fields at displacement u (n, 3) [m] with the supports' forces on the masses (n, 3) [N],
+    without actuators' rows. share: of a natural state; linear: of a solution for small displacements, at
+    which springs are evaluated for the share SMALL; more: fields of masses (n,)."""
     part = SMALL if linear else 1.0
     assembly = assembly.at(part * share)
     small, links, lattice = part * u, assembly.links, assembly.lattice

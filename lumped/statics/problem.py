@@ -1,10 +1,10 @@
-"""A lattice under its supports and loads: residual, tangent and factors, as the path tracer has a structure
+"""A lattice under its supports and loads: residual, tangent and factors, a `Structure` of the path tracer
 (`sheetbench.numerics.continuation`).
 
-With u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0, and a step is Tᵀ K T δq = Tᵀ (λ f − f_int −
-K δg), δg what supports and actuators have yet to move, K at the load that the state is at. One compiled call
-goes a step and finds the internal forces and the stresses that it extrapolates, so a state has its residual
-with it. Displacements and forces are (n, 3) [m], [N].
+The displacement is u = T q + g(λ), equilibrium Tᵀ (λ f(u) − f_int(u)) = 0, and a step Tᵀ K T δq =
+Tᵀ (λ f − f_int − K δg), δg the motion of supports and actuators still to come, K at the state's load. One
+compiled call takes a step and computes the internal forces and the extrapolated stresses after it, so that a
+state contains its residual. Displacements and forces are (n, 3) [m], [N].
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from lumped.statics.correction import advance, unbalanced_force
 from lumped.statics.faults import inspect
 from lumped.supports import Constraints
 from sheetbench.numerics import banded
+from sheetbench.numerics.cache import frozen
 from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start
 from sheetbench.numerics.continuation.path import Fault, Path
@@ -52,9 +53,9 @@ LIMITS = Limits(
 
 
 class Residual(NamedTuple):
-    """What the equilibrium equation leaves: the unbalanced force (n, 3) [N], the part of it on the free
-    unknowns (m,) and that one's norm [N]; size: the norm [N] of the external forces plus the supports';
-    moved: what is yet to be moved (n, 3) [m], None for nothing."""
+    """Residual of the equilibrium equation. force: (n, 3) [N] unbalanced; reduced: (m,) its part on the free
+    unknowns; norm: [N] of the reduced force; size: [N] norm of the external forces plus the supports'; moved:
+    (n, 3) [m] motion of supports and actuators still to come, None without any."""
 
     force: np.ndarray
     reduced: np.ndarray
@@ -64,9 +65,9 @@ class Residual(NamedTuple):
 
 
 class LatticeState(NamedTuple):
-    """Displacement u (n, 3) [m] at a load factor, what the equilibrium equation leaves there and the stresses
-    that the linearisation before the last step predicts, where they are known; where that step began, and how
-    far it went at most [m]; the springs' energies [J] by name where they are known."""
+    """Displacement u (n, 3) [m] at a load factor. residual: of the equilibrium equation, if computed;
+    stresses: predicted by the linearisation before the last step; start: displacement before that step;
+    length: [m] of the step's largest component; energies: [J] of the springs by name, if computed."""
 
     u: np.ndarray
     load_factor: float
@@ -81,12 +82,11 @@ LatticePath = Path[LatticeState, Residual]
 
 
 class Problem(Structure[LatticeState, Residual]):
-    """A scene's lattice under supports and loads, which grow with the load factor λ; its own solver too:
-    factors of blocks (b, 3, 3).
+    """A scene's lattice under supports and loads, which grow with the load factor λ, with the solver of its
+    linear systems, given by blocks (b, 3, 3).
 
-    size: the sheet's longer side [m]; items: what else acts on the sheet (`lumped.items`); symmetric: whether
-    all forces have a potential; descends: whether stable equilibria are minima of an energy of the free
-    unknowns.
+    size: the sheet's longer side [m]; items: obstacles (`lumped.items`); symmetric: whether all forces have a
+    potential; descends: whether stable equilibria are minima of an energy of the free unknowns.
     """
 
     def __init__(
@@ -114,25 +114,26 @@ class Problem(Structure[LatticeState, Residual]):
         else:
             multipliers = abs(transform).T @ coupling.algebraic.ravel() > 0.0
             self.system = ReducedSystem(assembly.pattern, transform, self.symmetric, multipliers)
-        self._moves = bool(self.prescribed(1.0).any())
+        self._placed = frozen(self._prescribed(1.0))
+        self._moves = bool(self._placed.any())
         self._iterates = self.descends and self.system.unknowns > ITERATED
         self.factor = self.system.factor
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
-        """Tᵀ f, the force on the free unknowns."""
+        """Return Tᵀ f, the force on the free unknowns."""
         reduced: np.ndarray = transposed_product(self._free, force.ravel(), self.system.unknowns)
         return reduced
 
     def expand(self, unknowns: np.ndarray) -> np.ndarray:
-        """T q as a displacement."""
+        """Return T q, a displacement (n, 3) [m]."""
         full: np.ndarray = product(self._free, np.ascontiguousarray(unknowns))
         return full.reshape(-1, 3)
 
     def tangent(
         self, u: np.ndarray, load_factor: float, stresses: Stresses | None = None, definite: bool = False
     ) -> np.ndarray:
-        """Blocks of the tangent of the residual, loads included; definite: less what could make that of the
-        springs indefinite."""
+        """Return the blocks of the tangent of the residual, loads included; definite: leave out parts that
+        could make the springs' tangent indefinite."""
         springs, drive = self.assembly.at(load_factor).all_families, Drive(load_factor)
         if definite:
             blocks = springs.nonnegative_tangent(u)
@@ -146,11 +147,14 @@ class Problem(Structure[LatticeState, Residual]):
         return blocks
 
     def prescribed(self, load_factor: float) -> np.ndarray:
-        """Displacement of the masses that supports and actuators put in place."""
-        placed = self.constraints.prescribed(load_factor)
+        """Return the displacement (n, 3) [m] that supports and actuators prescribe, 0 of other masses."""
+        return self._placed if load_factor == 1.0 else self._prescribed(load_factor)
+
+    def _prescribed(self, load_factor: float) -> np.ndarray:
+        g = self.constraints.prescribed(load_factor)
         if self.assembly.coupling is not None:
-            placed = placed + self.assembly.coupling.driven(Drive(load_factor))
-        return placed
+            g = g + self.assembly.coupling.driven(Drive(load_factor))
+        return g
 
     def project_to_supports(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return the displacement closest to u (n, 3) [m] that the supports allow."""
@@ -158,7 +162,7 @@ class Problem(Structure[LatticeState, Residual]):
         return self.expand(self.constraints.nearest(u - prescribed)) + prescribed
 
     def internal(self, u: np.ndarray, load_factor: float) -> tuple[float, np.ndarray]:
-        """Elastic energy [J] and internal force, actuators included."""
+        """Return elastic energy [J] and internal force, actuators included."""
         energy, force = self.assembly.at(load_factor).force(u)
         return energy + self._add_others(u, Drive(load_factor), force), force
 
@@ -170,27 +174,26 @@ class Problem(Structure[LatticeState, Residual]):
         return energy
 
     def survey(self, u: np.ndarray, load_factor: float) -> Survey:
-        """Return what the springs store, the items together under a name of their own, and how far springs
-        are strained."""
-        found = self.assembly.at(load_factor).survey(u)
+        """Return the springs' energies and largest strain, and all items' energy as "contact"."""
+        survey = self.assembly.at(load_factor).survey(u)
         if self.items:
             at, force = (u, Drive(load_factor)), np.zeros_like(u)
-            found.energies["contact"] = sum(item.add_force(at, force) for item in self.items)
-        return found
+            survey.energies["contact"] = sum(item.add_force(at, force) for item in self.items)
+        return survey
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
-        """External force λ f(u)."""
+        """Return the external force λ f(u)."""
         return load_factor * self.loads.force(u)
 
     def potential(self, u: np.ndarray, load_factor: float) -> float:
-        """Elastic energy less the work of the loads [J]; only conservative problems have one."""
+        """Return the elastic energy less the work of the loads [J] of a conservative problem."""
         energy, _ = self.internal(u, load_factor)
         return energy - load_factor * self.loads.work(u)
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
         """Return the residual at u."""
         others = self.assembly.coupling is not None or self.prestrained or self.items
-        flat = not (others or u.any())  # where springs are at rest
+        flat = not (others or u.any())  # springs are at rest
         internal = np.zeros(u.shape) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
 
@@ -203,18 +206,19 @@ class Problem(Structure[LatticeState, Residual]):
         return LatticeState(np.zeros(self.loads.dead.shape), 0.0)
 
     def start(self, u: np.ndarray) -> Start[LatticeState]:
-        """Return the start at full load beside a displacement (n, 3) [m]."""
-        beside = LatticeState(self.project_to_supports(u, 1.0), 1.0)
-        state = self.advance(beside, None, 1.0, np.zeros(self.system.unknowns))
+        """Return the start at full load from a displacement (n, 3) [m]."""
+        projected = LatticeState(self.project_to_supports(u, 1.0), 1.0)
+        state = self.advance(projected, None, 1.0, np.zeros(self.system.unknowns))
         return Start(state, 1.0, self.length(self.rest(), state), 0.0)
 
     def forces(self, state: LatticeState, load_factor: float) -> Residual:
-        known = state.residual if state.load_factor == load_factor else None
-        found = known or self.residual(state.u, load_factor)
-        moved = self._moved(state, load_factor)
-        return found if moved is None else found._replace(moved=moved)
+        computed = state.residual if state.load_factor == load_factor else None
+        residual = computed or self.residual(state.u, load_factor)
+        moved = self._support_motion(state, load_factor)
+        return residual if moved is None else residual._replace(moved=moved)
 
-    def _moved(self, state: LatticeState, load_factor: float) -> np.ndarray | None:
+    def _support_motion(self, state: LatticeState, load_factor: float) -> np.ndarray | None:
+        """Return the motion (n, 3) [m] of supports and actuators to another load factor, None without any."""
         if not self._moves or state.load_factor == load_factor:
             return None
         return self.prescribed(load_factor) - self.prescribed(state.load_factor)
@@ -227,16 +231,16 @@ class Problem(Structure[LatticeState, Residual]):
         # relative displacements are differences of u: their rounding, times the stiffness
         carried = assembly.all_families.link_stiffness_norm * largest
         if assembly.coupling is not None:
-            each = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
-            carried = float(np.linalg.norm(each))
+            by_row = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
+            carried = float(np.linalg.norm(by_row))
         at = self.placed(state, state.load_factor)
         return assembly.rounding * carried + sum(item.rounding(at) for item in self.items)
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
-        moved, lattice = self._moved(state, load_factor), self.assembly.lattice
+        moved, lattice = self._support_motion(state, load_factor), self.assembly.lattice
         if moved is None:
             return 0.0
-        layers = moved[lattice.columns()]  # one that is turned moves the sheet's end
+        layers = moved[lattice.columns()]  # a support that turns moves the sheet's end
         turn = float(np.abs(layers[..., -1, :] - layers[..., 0, :]).max()) / lattice.spacing[2]
         return max(float(np.abs(moved).max() / self.size), turn)
 
@@ -259,7 +263,7 @@ class Problem(Structure[LatticeState, Residual]):
         moved = NOTHING if moved is None else moved
         after, length, internal, stresses = advance(state.u, step, moved, self._free, springs.springs)
         if self._others or not springs.conservative:
-            internal = springs.beside(after, internal)
+            internal = springs.with_others(after, internal)
             self._add_others(after, Drive(load_factor), internal)
         residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, residual, stresses, state.u, length)
@@ -288,15 +292,15 @@ class Problem(Structure[LatticeState, Residual]):
         return self.system.matrix(matrix)
 
     def length(self, start: LatticeState, end: LatticeState) -> float:
-        known = end.start is start.u
-        return (end.length if known else float(np.abs(end.u - start.u).max())) / self.size
+        one_step = end.start is start.u
+        return (end.length if one_step else float(np.abs(end.u - start.u).max())) / self.size
 
     def has_meaning(self, state: LatticeState) -> bool:
         links = self.assembly.at(state.load_factor).links
         return not outside_model(self.scene, links.largest_strain(state.u), STRETCH)
 
     def inspect(self, path: LatticePath) -> Fault | None:
-        """Return why the path's last equilibrium means nothing, if it does."""
+        """Return the fault of the path's last equilibrium, if it is invalid."""
         return inspect(self.assembly.at(path.state.load_factor), path.state.u[None])[1]
 
     def loading(self) -> float:

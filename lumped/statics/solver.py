@@ -1,4 +1,4 @@
-"""Statics of a lattice: a scene and springs in, a `Solution` out."""
+"""Static solutions of a scene on a lattice of calibrated springs."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from lumped.lattice import Weights
 from lumped.statics import validity
 from lumped.statics.answer import solution
 from lumped.statics.build import build_problem
-from lumped.statics.coarse_start import FROM, halved, refined
-from lumped.statics.energy_descent import settle
+from lumped.statics.coarse_start import FROM, coarser_springs, interpolated_displacement
+from lumped.statics.energy_descent import descend
 from lumped.statics.fields import SMALL
 from lumped.statics.problem import STRETCH, LatticePath, LatticeState, Problem
 from sheetbench.answers.solution import Iteration, Solution, Status
@@ -55,22 +55,52 @@ def solve(
     progress: Callable[[Iteration], None] | None = None,
     calibrate: Calibrate | None = None,
 ) -> Solution:
-    """Static equilibrium of the scene on a lattice with these springs, from flat to full load.
+    """Return the static equilibrium of a scene on a lattice, traced from the flat sheet to full load.
 
-    scene: or a name of the catalogue, or a path. calibration: from `calibrate`; without it the scene's own
-    [springs], or else `consistent` on nine masses along the shorter side.
-    branch: "path" reports the equilibrium on the load path, stable or not; "stable" leaves an unstable one
-    along a direction of negative curvature and descends to a stable equilibrium. weights: "full" gives
-    boundary links and masses full shares, as Habibi et al. have them. linear: the answer for small
-    displacements, one step with the flat sheet's tangent. near: the masses' displacement (n, 3) [m] in an
-    equilibrium of a scene much like this one on this grid, to be sought from first; where that leads to no
-    stable one, and with actuators, from flat. progress: called once an iteration. calibrate: how the answer's
-    `gradient` finds the springs of a changed scene, by the same method without options unless given.
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        Scene, the name of one in the catalogue, or the path of its file.
+    calibration : Calibration, optional
+        Springs from `calibrate`; by default the scene's, or consistent ones on nine masses along the shorter
+        side.
+    branch : {"path", "stable"}, default "path"
+        The equilibrium on the load path, stable or not; or, if it is unstable, a stable one by descent in
+        energy along a direction of negative curvature.
+    weights : {"tributary", "full"}, default "tributary"
+        Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
+    linear : bool, default False
+        Whether to solve for small displacements, one step with the flat sheet's tangent.
+    near : ndarray of shape (n, 3), optional
+        Displacement [m] of the masses in the equilibrium of a similar scene on an equal grid, used as a first
+        start; with actuators, and if it leads to no stable equilibrium, the path starts from the flat sheet.
+    progress : callable, optional
+        Function of an `Iteration`, called at each.
+    calibrate : callable, optional
+        Function that calibrates a changed scene for the answer's `gradient`; by default the calibration's
+        method without options.
 
-    Raises scenes.SceneError when nothing stops a rigid motion, BadInput for linear with actuators, for `near`
-    of another grid, and for options that have no effect beside linear or near. Every other outcome is a
-    status; where the full load was not reached, the last converged load is kept and `load_factor` says which.
+    Returns
+    -------
+    Solution
+        Displacements [m], reactions [N], energies [J] and status. A path that ends before the full load
+        keeps the last converged state, with its `load_factor`.
 
+    Raises
+    ------
+    SceneError
+        If no support stops a rigid motion.
+    BadInput
+        If `linear` is set for a scene with actuators, `near` is of another grid, or an option has no effect
+        with `linear` or `near`.
+
+    Notes
+    -----
+    Newton's method with adaptive load steps (`sheetbench.numerics.continuation`); the lattice is described in
+    `docs/theory.md`.
+
+    Examples
+    --------
     >>> import lumped
     >>> solution = lumped.solve("two-edges-clamped")
     >>> solution.status, solution.displacement([[0.188, 0.188]]).round(5)
@@ -83,29 +113,30 @@ def solve(
         require_effect("with linear = True", {"branch": branch != "path", "near": near})
     elif branch != "path" or weights != "tributary":
         require_effect("with another branch than path or other weights than tributary", {"near": near})
-    began = now()
+    start_time = now()
     compile_kernels()
     calibration = calibration or default(scene)
     problem = build_problem(scene, calibration, weights)
-    ready = now()
+    ready_time = now()
     if linear:
         path = flat_step(problem)
     elif weights == "tributary" and branch == "path":
         path = solve_from_best_start(problem, calibration, near, progress)
     else:
         path = solve_path(problem, branch, progress=progress)
-    done = now()
+    seconds = ready_time - start_time, now() - ready_time
     options = {"branch": (branch, "path"), "weights": (weights, "tributary"), "linear": (linear, False)}
-    requested = {name: value for name, (value, usual) in options.items() if value != usual}
-    found = solution(problem, path, calibration, (ready - began, done - ready), requested)
+    requested = {name: value for name, (value, default_value) in options.items() if value != default_value}
+    result = solution(problem, path, calibration, seconds, requested)
     if linear or weights != "tributary":
-        return found
-    return replace(found, sensitivity=partial(Equilibrium.of, scene, calibration, path.state.u, calibrate))
+        return result
+    return replace(result, sensitivity=partial(Equilibrium.of, scene, calibration, path.state.u, calibrate))
 
 
 @cache
 def compile_kernels() -> None:
-    """Solve a small sheet once a process, so that no solve's time holds the loading of compiled kernels."""
+    """Solve a small sheet once a process, so that no solve's time includes the loading of compiled
+    kernels."""
     sheet = Sheet(length_x=1.0, length_y=1.0, thickness=0.05)
     material = Material(young=1e6, poisson=0.3, density=1e3)
     gravity = Gravity(acceleration=(0.0, 0.0, -1.0))
@@ -115,7 +146,7 @@ def compile_kernels() -> None:
 
 
 def flat_step(problem: Problem) -> LatticePath:
-    """The equilibrium of small displacements: K u = f with the flat sheet's tangent K."""
+    """Return the equilibrium of small displacements: K u = f with the flat sheet's tangent K."""
     path = Path(problem, problem, problem.rest(), factorisations=1)
     try:
         with one_blas_thread():
@@ -137,25 +168,25 @@ def solve_path(
     near: np.ndarray | None = None,
     progress: Progress | None = None,
 ) -> LatticePath:
-    """The path to the equilibrium at full load, or how far it went and why; near: a displacement (n, 3) [m]
-    to begin at."""
+    """Return the path to the equilibrium at full load, or to the last converged load; near: displacement (n,
+    3) [m] to begin at."""
     path = trace_path(
         problem,
         problem,
         problem.inspect,
-        settle if problem.descends else None,
+        descend if problem.descends else None,
         progress,
         None if near is None else problem.start(near),
         problem.scene.sheet.thickness / problem.size,
         problem.limits,
         branch == "stable",
     )
-    judge(problem, path)
+    classify(problem, path)
     return path
 
 
 def stable_equilibrium(problem: Problem) -> LatticeState:
-    """The stable equilibrium on the load path at full load. Raises NoEquilibrium where there is none."""
+    """Return the stable equilibrium on the load path at full load. Raises NoEquilibrium without one."""
     path = solve_path(problem)
     require_stable("lumped", path.status, path.notes)
     return path.state
@@ -167,52 +198,55 @@ def solve_from_best_start(
     near: np.ndarray | None = None,
     progress: Progress | None = None,
 ) -> LatticePath:
-    """The path to the equilibrium at full load, sought first from `near` (n, 3) [m] or, of a large lattice,
-    from that of one with half as many cells a side."""
+    """Return the path to the equilibrium at full load, started from `near` (n, 3) [m] or, for a large
+    lattice, from the equilibrium of the lattice with half as many cells a side."""
     if near is not None and near.shape != problem.loads.dead.shape:
         raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
-    if problem.assembly.coupling is not None or problem.items:  # whose points are others on another grid
+    if problem.assembly.coupling is not None:  # its unknowns depend on the grid
         return solve_path(problem, progress=progress)
-    large = near is None and problem.descends and problem.system.unknowns > FROM
-    springs = halved(problem.scene, calibration) if large else None
+    may_start_coarser = near is None and not problem.items  # contact points differ on another grid
+    large = may_start_coarser and problem.descends and problem.system.unknowns > FROM
+    springs = coarser_springs(problem.scene, calibration) if large else None
     if springs is None:
         return solve_path(problem, "path", near, progress)
     smaller = build_problem(problem.scene, springs)
     path = solve_from_best_start(smaller, springs, progress=progress)
-    spent, history = path.factorisations, path.history
+    factorisations, history = path.factorisations, path.history
     if path.status is Status.CONVERGED and not path.snaps and not path.notes:
-        near = refined(smaller.assembly.lattice, path.state.u, problem.assembly.lattice)
+        near = interpolated_displacement(smaller.assembly.lattice, path.state.u, problem.assembly.lattice)
     del smaller, path  # and the memory of their factors
     path = solve_path(problem, "path", near, progress)
-    path.factorisations += spent
+    path.factorisations += factorisations
     path.history[:0] = history
     return path
 
 
-def judge(problem: Problem, path: LatticePath) -> None:
-    """Add to a path's status and notes whether the springs mean anything at its end, and what is doubtful
-    there."""
+def classify(problem: Problem, path: LatticePath) -> None:
+    """Set a path's status and notes by the validity of its last state: strain beyond the model, and reasons
+    for doubt."""
     scene, state, notes = problem.scene, path.state, path.notes
     if path.fault is not None:
         if scene.material.limit and any(support.motion is not None for support in scene.supports):
             notes.append(limit_note(scene.material))
         return
-    found = problem.survey(state.u, state.load_factor)
-    path.state = state._replace(energies=found.energies)
+    survey = problem.survey(state.u, state.load_factor)
+    path.state = state._replace(energies=survey.energies)
     rounded = validity.digits(problem, state, path.factor)
-    outside = outside_model(scene, found.strain, STRETCH)
+    outside = outside_model(scene, survey.strain, STRETCH)
     if outside and not problem.assembly.any_strain:
         path.status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)
     elif rounded is not None and path.status is Status.CONVERGED:
         path.status = rounded.status
-    doubts = [validity.layers(problem, state, found), rounded.message if rounded is not None else ""]
-    doubts.append(validity.slender_cells(problem.assembly.lattice) if path.status is Status.UNSTABLE else "")
+    cautions = [validity.layers(problem, state, survey), rounded.message if rounded is not None else ""]
+    cautions.append(
+        validity.slender_cells(problem.assembly.lattice) if path.status is Status.UNSTABLE else ""
+    )
     if not problem.assembly.conservative:
-        doubts.append(
+        cautions.append(
             "per-direction springs: not central, they have no energy and keep no moments; solved with an "
             "unsymmetric tangent"
         )
     elif not problem.conservative:
-        doubts.append("follower loads: solved with an unsymmetric tangent")
-    notes.extend(filter(None, doubts))
+        cautions.append("follower loads: solved with an unsymmetric tangent")
+    notes.extend(filter(None, cautions))

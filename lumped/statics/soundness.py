@@ -1,6 +1,5 @@
-"""What every answer and every sample of a motion is looked at for, as compiled loops: inverted
-cells (`lumped.statics.faults`), how sharply the sheet bends, what rounding its links carry
-(`lumped.statics.validity`)."""
+"""Checks of every answer and every sample of a motion, as compiled loops: inverted cells
+(`lumped.statics.faults`), sharpness of bending, rounding of the links' forces (`lumped.statics.validity`)."""
 
 from __future__ import annotations
 
@@ -13,7 +12,7 @@ from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import inner, njit
 
 TINY = float(np.finfo(float).tiny)
-TIED = 1.0 + 1e-9  # of mirror images, which rounding tells apart, the first is named
+TIED = 1.0 + 1e-9  # the first of mirror images is named, which differ by rounding alone
 
 
 @inner()
@@ -50,22 +49,22 @@ def examine(
     positions: np.ndarray,
     areas: np.ndarray,
 ) -> tuple[np.ndarray, int, int]:
-    """Return `links.strains` of the displacements (k, n, 3) [m] before the first that means nothing, why that
-    one does not, −1 where all do, and the mass where: 0, a number is not finite; 1, the shortest link; 2, the
-    cell of the mid-surface whose normal points away from the mean director of its corners most, for its area
-    when flat. shortest: of a link, over its length at rest; areas (ny − 1, nx − 1) [m²], 0 of absent cells,
-    the rest as in `surface`."""
+    """Return `links.strains` of the displacements (k, n, 3) [m] before the first invalid one, the number of
+    its fault, −1 without one, and the mass at it: 0, a number is not finite; 1, the shortest link; 2, the
+    cell of the mid-surface whose normal, relative to its flat area, points away from the mean director of its
+    corners most. shortest: length of a link over its length at rest; areas: (ny − 1, nx − 1) [m²], 0 of
+    absent cells; other arguments as in `surface`."""
     ny, nx, _ = columns.shape
     sound, kind, mass = len(states), -1, 0
     for k in range(len(states)):
         for i in range(len(positions)):
-            moved = states[k, i, 0] + states[k, i, 1] + states[k, i, 2]
-            if kind < 0 and not math.isfinite(moved):
+            total = states[k, i, 0] + states[k, i, 1] + states[k, i, 2]
+            if kind < 0 and not math.isfinite(total):
                 sound, kind, mass = k, 0, i
-    found, link = strains(states[:sound], links, shortest)
+    largest, link = strains(states[:sound], links, shortest)
     if link >= 0:
         kind, mass = 1, links.nodes[link, 0]
-    for k in range(len(found)):
+    for k in range(len(largest)):
         middle, director = surface(columns, positions, states[k])
         least, which = np.inf, 0
         for j in range(ny - 1):
@@ -79,8 +78,8 @@ def examine(
                 if areas[j, i] > 0.0 and facing < least * areas[j, i]:
                     least, which = facing / areas[j, i], columns[j, i, 0]
         if least <= 0.0:
-            return found[:k], 2, which
-    return found, kind, mass
+            return largest[:k], 2, which
+    return largest, kind, mass
 
 
 @njit
@@ -92,8 +91,9 @@ def sharpest_bend(
     along_x: np.ndarray,
     along_y: np.ndarray,
 ) -> tuple[float, float, int, int]:
-    """Return the largest ℓ² √|κ₁ κ₂| [m] of all cells, ℓ the longer of a cell's sides along_x (nx − 1,) and
-    along_y (ny − 1,) [m], that ℓ and the cell (j, i); κ₁ κ₂ from the directors' changes along x and y."""
+    """Return the largest ℓ² √|κ₁ κ₂| [m] of all cells, its ℓ and its cell (j, i); ℓ is the longer of a cell's
+    sides along_x (nx − 1,) and along_y (ny − 1,) [m], κ₁ κ₂ follow from the directors' changes along x and
+    y."""
     ny, nx, _ = columns.shape
     middle, director = surface(columns, positions, u)
     largest, row, column = -1.0, 0, 0

@@ -1,1 +1,1 @@
-"""The shape of every answer: a document, tables of rows, figures, notes, and all that follows from them."""
+"""The parts of every answer: a document, tables of rows, figures and notes, and their forms on screen."""

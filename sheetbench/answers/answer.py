@@ -1,4 +1,4 @@
-"""What every answer has: a document, tables, figures and notes; all else follows from these."""
+"""Base of all answers: a document, tables, figures and notes, from which its files and its display follow."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 
 class Answer(ABC):
-    """Base of all answers; file_name: of the files under `--out`, page_name: of its tables' in Markdown,
-    where that differs; notes_shown: how many notes a terminal shows without --verbose."""
+    """Base of all answers. file_name: name of the files under `--out`. page_name: name of the Markdown file
+    if it differs. notes_shown: number of notes that a terminal shows without --verbose."""
 
     file_name: ClassVar[str] = "answer"
     page_name: ClassVar[str] = ""
@@ -31,20 +31,20 @@ class Answer(ABC):
 
     @abstractmethod
     def tables(self) -> Sequence[Table]:
-        """Return the tables; those with a name become CSV files too."""
+        """Return the tables; a table with a name becomes a CSV file too."""
 
     def heading(self) -> tuple[str, str, str]:
-        """Return title, subtitle and a line more: those of the scene, unless an answer has its own."""
+        """Return title, subtitle and a further line: the scene's, unless an answer has its own."""
         scene: Any = getattr(self, "scene", None)
         return ("", "", "") if scene is None else (scene.name, scene.title, "")
 
     def result(self) -> str:
-        """Return the answer in a line with its numbers, for a list of answers: unless an answer has its own,
-        the first thing that it complains of or remarks."""
+        """Return the answer in a line with its numbers, for a list of answers. It is the first complaint or
+        note, unless an answer has its own line."""
         return next(iter((*self.complaints(), *self.notes())), "")
 
     def printed(self) -> Sequence[Table]:
-        """Return what a terminal shows, where that is not all tables."""
+        """Return the tables that a terminal shows."""
         return self.tables()
 
     def figures(self) -> Sequence[Picture]:
@@ -56,24 +56,24 @@ class Answer(ABC):
         return ()
 
     def complaints(self) -> Sequence[str]:
-        """Return what went wrong or is doubtful, a sentence each."""
+        """Return sentences on failures and doubts."""
         return ()
 
     def files(self) -> Mapping[str, Write]:
-        """Return what writes each further file, by name."""
+        """Return the writers of further files, by the files' names."""
         return {}
 
     def choices(self) -> Mapping[str, Any]:
-        """Return the settings it was made with, for the manifest."""
+        """Return the settings of the answer, for the manifest."""
         return {}
 
     @property
     def succeeded(self) -> bool:
-        """Whether the question has its answer."""
+        """Return whether the question has its answer."""
         return True
 
     def report(self) -> Report:
-        """Return everything that is to be shown, made once."""
+        """Return all parts of the answer as a report."""
         title, subtitle, lead = self.heading()
         result = self.result()
         pictures = (replace(one, description=one.description or result) for one in self.figures())
@@ -97,8 +97,8 @@ class Answer(ABC):
         )
 
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
-        """Return the first table, or that of a name, as a data frame in SI units. Raises BadInput where there
-        is no such table, or pandas is not installed."""
+        """Return the first table, or the table of a name, as a data frame in SI units. Raises BadInput if
+        there is no table of this name, or pandas is not installed."""
         tables = {one.name or one.caption: one for one in self.tables()}
         if not tables or (table and table not in tables):
             raise BadInput(f"to_pandas('{table}'): tables are {', '.join(tables) or 'none'}")

@@ -1,11 +1,11 @@
-"""Whether what holds a sheet and what loads it are in balance, as an answer has them.
+"""Balance of the reactions and loads of an answer.
 
     Σ reactions + Σ loads = 0,    Σ moments = 0 about the origin of the flat sheet's frame
 
-Reactions are those that the answer lists: what it leaves out is missing here. The force of the dead loads is
-the scene's own, from density, sides and loads, and not what a model has made of it; followers'
-forces, and all moments, depend on the shape and are those on the sheet as it lies (a linear model's on the
-flat one). What is left over is compared with what the model's own tolerance and rounding may leave.
+The sum contains the reactions that the answer lists, so that a missing one shows. The force of the dead loads
+is computed from the scene, by density, sides and loads, not from a model. Followers' forces and all moments
+depend on the shape: they are computed on the deformed sheet, for a linear model on the flat one. The residual
+is compared with the model's tolerance and rounding.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from sheetbench.scenes.scene import Scene
 
 @dataclass(frozen=True)
 class Balance:
-    """What an answer's forces leave over: force (3,) [N], moment (3,) [N·m].
+    """Residual of an answer's forces (3,) [N] and moments (3,) [N·m].
 
-    size: of the forces that balance, as the model measures its residual [N]; allowed: force [N] that its
-    tolerance and rounding may leave; arm: [m], by which a force of that size may leave a moment.
-    objective: whether the model's law keeps moments at all.
+    size: size of the forces in balance [N], in the measure of the model's residual. allowed: residual [N] due
+    to the model's tolerance and rounding. arm: [m], the allowed moment over the allowed force. objective:
+    whether the model's law preserves moments.
     """
 
     force: np.ndarray
@@ -42,28 +42,28 @@ class Balance:
 
     @property
     def left(self) -> float:
-        """The larger of the force and of the moment over the arm [N]."""
+        """Return the larger of the force and of the moment over the arm [N]."""
         moment = math.hypot(*self.moment.tolist()) / self.arm if self.objective else 0.0
         return max(math.hypot(*self.force.tolist()), moment)
 
     @property
     def relative(self) -> float:
-        """`left` over the size of the forces; 0 where there are none."""
+        """Return `left` over the size of the forces; 0 without forces."""
         return self.left / self.size if self.size > 0.0 else 0.0
 
     @property
     def holds(self) -> bool:
-        """Whether no more is left than allowed."""
+        """Return whether the residual is within the allowed one."""
         return self.left <= self.allowed
 
     def in_words(self) -> str:
-        """What is left over, in a clause."""
+        """Return a clause on the residual."""
         force, moment = (float(np.linalg.norm(part)) for part in (self.force, self.moment))
         share = f"{self.relative:.1g} of all"
         return f"forces out of balance by {force:.2g} N, moments by {moment:.2g} N·m ({share})"
 
     def document(self) -> dict[str, Any]:
-        """For JSON: N, N·m, and what is left as a fraction of the forces."""
+        """Return the residual for JSON: N, N·m, and as a fraction of the forces."""
         return {
             "force": self.force.tolist(),
             "moment": self.moment.tolist(),
@@ -75,10 +75,10 @@ class Balance:
 def dead_force(
     scene: Scene, mass: float | None = None, lengths: dict[str, float] | None = None
 ) -> np.ndarray:
-    """The force (3,) [N] of all dead loads, with the last factors of their histories.
+    """Return the force (3,) [N] of all dead loads, with the last factors of their histories.
 
-    mass [kg] of the sheet and lengths [m] by edge: as a model has them, where its outline or what it is made
-    of is not the scene's to the last digit.
+    mass: the sheet's mass [kg] in a model, and lengths: its edges' lengths [m], if a model's outline or
+    composition differs from the scene's.
     """
     named = {getattr(acting, "edge", None) for acting in (*scene.actuators, *scene.loads)}
     sides = {name: edge_length(scene, name) for name in EDGES if name in named} | (lengths or {})

@@ -1,4 +1,4 @@
-"""State of the contact with an obstacle, as an answer contains it."""
+"""Contact with an obstacle in an answer."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ import numpy as np
 from sheetbench.answers.table import NUMBER
 from sheetbench.scenes.objects.obstacles import TOUCH
 
-DEEP = 1e-3  # penetration over the thickness from which on a note says so
-UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: points as near as that to touching
+DEEP = 1e-3  # penetration over the thickness above which there is a note
+UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: distance of undecided points from touching
 
 
 @dataclass(frozen=True)
 class ContactState:
-    """area: that touches [m²]; penetration: the deepest, over the thickness; points: how many, or parts of
-    cells, touch; undecided: how many are so near to touching that the tangent may belong to either state."""
+    """Contact of a sheet with an obstacle. area: in contact [m²]. penetration: the deepest, over the
+    thickness. points: number of points, or parts of cells, in contact. undecided: number of points so close
+    to touching that either state may determine the tangent."""
 
     area: float
     penetration: Annotated[float, NUMBER(".2g", "penetration/h")]
@@ -26,8 +27,8 @@ class ContactState:
 
     @classmethod
     def of(cls, depth: np.ndarray, area: np.ndarray) -> ContactState:
-        """Return the state of points or parts of cells: depths over the thickness, δ₀ included, < 0 of a
-        clear one, and areas that touch."""
+        """Return the contact of points or parts of cells. depth: over the thickness, with δ₀, < 0 without
+        contact. area: of each in contact [m²]."""
         over, touching = depth - TOUCH, depth > 0.0
         deepest = float(over.max(initial=0.0))
         near = np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)
@@ -35,7 +36,7 @@ class ContactState:
 
     @property
     def notes(self) -> list[str]:
-        """What is doubtful, a clause each."""
+        """Return clauses on doubts."""
         deep = f"the sheet is pressed in by {self.penetration:.2g} of its thickness"
         near = f"{self.undecided} points are about to touch or to leave: stability undecided"
         return [deep] * (self.penetration > DEEP) + [near] * (self.undecided > 0)

@@ -1,7 +1,7 @@
-"""Text that is not ours escaped where it is shown: on a terminal, in Markdown and HTML, CSV.
+"""Escaping of foreign text for display: on a terminal, in Markdown and HTML, in CSV.
 
 A scene's name, its title and its probes' names may hold anything: escape sequences for a terminal, markup for
-a browser, formulas for a spreadsheet. Every way to show text goes through one of these functions, once.
+a browser, formulas for a spreadsheet. Every display of text calls one function of this module, once.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def html(text: str) -> str:
-    """Return the text without tags, for Markdown that is ours; lines stay lines."""
+    """Return the text with its tags escaped, for HTML and for Markdown; lines stay lines."""
     plain = terminal(text, keep="\n")
     return plain.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
@@ -32,6 +32,5 @@ def cell(text: str) -> str:
 
 
 def csv_cell(value: Any) -> Any:
-    """Return the value of a CSV cell: text that a spreadsheet would take for a formula starts with an
-    apostrophe."""
+    """Return the value of a CSV cell, with an apostrophe before text that starts like a formula."""
     return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value

@@ -1,8 +1,7 @@
-"""The style of a picture: to be read beside its tables, or for a column of a paper.
+"""The style of a picture: for a page with its tables, or for a column of a paper.
 
-A paper's picture has the width of one column (89 mm) or of both (183 mm), as most journals have them, and no
-title over it: that is the caption's. What cannot be read without it, as how much displacements are enlarged,
-stays in the picture.
+A paper's picture has the width of one column (89 mm) or of both (183 mm), as in most journals, and no title:
+the caption has it. Text that is needed to read the picture, as the scale of displacements, stays in it.
 """
 
 from __future__ import annotations
@@ -18,8 +17,8 @@ WIDTHS = {"single": 89.0 / INCH, "double": 183.0 / INCH}  # inches
 
 @dataclass(frozen=True)
 class FigureStyle:
-    """formats: the files' suffixes, each picture's own where there are none; narrow: of one column; titled:
-    whether the scene's title stands over it."""
+    """Style of a picture. formats: the files' suffixes, each picture's own if empty. narrow: one column wide.
+    titled: with the scene's title over it."""
 
     formats: tuple[str, ...] = ()
     narrow: bool = False
@@ -27,11 +26,11 @@ class FigureStyle:
 
     @property
     def width(self) -> float:
-        """Of the whole picture [inches]."""
+        """Return the width of the whole picture [inches]."""
         return WIDTHS["single" if self.narrow else "double"]
 
     def panels(self, count: int) -> tuple[int, int]:
-        """Rows and columns of so many panels: side by side, or one above the other in one column."""
+        """Return the rows and columns of a number of panels: side by side, or in one column if narrow."""
         return (count, 1) if self.narrow else (1, count)
 
 
@@ -39,22 +38,22 @@ PLAIN = FigureStyle()
 
 
 def parse_figure(text: str | None) -> tuple[FigureStyle, ...]:
-    """Return the styles that `--figure` names, one per width: formats with commas between them, a width after
-    a colon for the formats before it, as `pdf`, `pdf,png:single` or `pdf:single,png:double`. Raises BadInput,
-    naming the option."""
+    """Return the styles that the value of `--figure` names, one per width. Formats are separated by commas; a
+    width follows the formats after a colon: `pdf`, `pdf,png:single`, `pdf:single,png:double`. Raises
+    BadInput, which names the option."""
     if text is None:
         return (PLAIN,)
-    found, width = dict[str, str](), "double"
+    width_of, width = dict[str, str](), "double"
     for item in reversed([*filter(str.strip, text.lower().split(","))]):
         name, colon, given = (part.strip() for part in item.partition(":"))
         require_choice("--figure", name, FORMATS)
-        if name in found:
+        if name in width_of:
             raise BadInput(f"--figure = '{text}': {name} is there twice, and has one file")
         if colon:
             require_choice("the width in --figure", given, WIDTHS)
             width = given
-        found[name] = width
-    if not found:
+        width_of[name] = width
+    if not width_of:
         raise BadInput(f"--figure = '{text}': name a format: {', '.join(FORMATS)}")
-    formats = {wide: tuple(name for name in reversed(found) if found[name] == wide) for wide in WIDTHS}
+    formats = {wide: tuple(name for name in reversed(width_of) if width_of[name] == wide) for wide in WIDTHS}
     return tuple(FigureStyle(of, wide == "single", False) for wide, of in formats.items() if of)

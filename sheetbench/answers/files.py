@@ -1,4 +1,4 @@
-"""Folders and documents: where files go, and plain data as JSON."""
+"""Folders and documents: folders for files, and plain data as JSON."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from sheetbench.files import whole
 def write_text(path: Path, text: str) -> None:
     """Write a text file, whole or not at all.
 
-    Bytes of a file's name that are not UTF-8 become \\udcXX, as JSON has them.
+    Bytes of a file's name that are not UTF-8 become \\udcXX, as in JSON.
     """
     with whole(path) as partial:
         partial.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 def folder(path: Path | str, option: str = "--out") -> Path:
-    """Return the folder, made if need be. Raises BadInput where it cannot be, or not be written to."""
+    """Return a folder, made if necessary. Raises BadInput if it cannot be made or written to."""
     if path == "" or not isinstance(path, str | os.PathLike):
         raise BadInput(f"{option} = {path!r}: name a folder; '.' is the current one")
     made = Path(path)
@@ -42,12 +42,12 @@ def folder(path: Path | str, option: str = "--out") -> Path:
 
 
 def digest(text: str) -> str:
-    """Sixteen digits that follow from a text."""
+    """Return sixteen digits of a text's hash."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def plain(value: Any) -> Any:
-    """Return the same data as JSON knows it: arrays as lists, numbers that are not finite as null."""
+    """Convert data for JSON: arrays to lists, numbers that are not finite to null."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray):
@@ -62,8 +62,8 @@ def plain(value: Any) -> Any:
 
 
 def to_json(value: Any, escaped: bool = False) -> str:
-    """One JSON document, indented, with a final newline. It never holds NaN or Infinity.
+    """Return a JSON document, indented, with a final newline, without NaN and Infinity.
 
-    escaped: in ASCII alone, other characters as \\uXXXX.
+    escaped: write characters beyond ASCII as \\uXXXX.
     """
     return json.dumps(plain(value), indent=2, ensure_ascii=escaped, allow_nan=False) + "\n"

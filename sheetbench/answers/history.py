@@ -1,13 +1,13 @@
-"""What a dynamic run answers with: probes, energies and forces over time, and how it ended.
+"""The answer of a dynamic run: probes, energies and forces over time, and the status at its end.
 
-Part of the question's language, as `Solution` is for statics: it holds no mechanics.
+It holds no mechanics, as `Solution` for statics.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
@@ -28,19 +28,55 @@ UNDAMPED = (
 )
 COMPONENTS = ("ux", "uy", "uz")
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
+Displacement = Annotated[float, MILLIMETRES("z.3f")]
+
+
+@dataclass(frozen=True)
+class ExcursionRow:
+    """A probe's last displacement, and its largest component during the motion [m]."""
+
+    probe: str
+    ux: Displacement
+    uy: Displacement
+    uz: Displacement
+    largest: Displacement
 
 
 @dataclass(frozen=True, repr=False)
 class History(Answer):
-    """Samples of a run; n of them, of which the first is the start.
+    """The n samples of a run in motion, of which the first is the start.
 
-    time: (n,) [s]; probes: name → displacement (n, 3) [m]; energies: kinetic, elastic, potential,
-    dissipated and work, (n,) [J] each (potential: of constant dead loads; work: done by all other loads,
-    and by supports and commands that move), none of a program that does not tell them; reactions: as those
-    of a `Solution`, (n, 3) [N] each; actuators: name → force and moment about the
-    segment's middle that each segment exerts on the sheet, (n, segments, 6) [N, N·m]; steps: taken by the
-    integrator; status `converged` means that the run reached its end; resumed_from: what lies
-    before is an earlier run's, which this one took up [s].
+    Parameters
+    ----------
+    label : str
+        The model in words.
+    integrator : str
+        The method of integration.
+    settings : dict
+        The model's and the integrator's settings.
+    status : Status
+        The end of the run; `converged`: it reached its end.
+    message : str
+        Remarks on the run, "" without any.
+    time : ndarray, (n,) [s]
+        Times of the samples.
+    probes : dict of str to ndarray, (n, 3) [m]
+        Displacement of each probe by name.
+    energies : dict of str to ndarray, (n,) [J]
+        Kinetic, elastic, potential (of constant dead loads) and dissipated energy, and the work of all other
+        loads, of moving supports and of commands; empty if a program does not report them.
+    reactions : dict of str to ndarray, (n, 3) [N]
+        Forces of the supports on the sheet, by the names of a `Solution`.
+    actuators : dict of str to ndarray, (n, segments, 6) [N, N·m]
+        Force of each segment on the sheet, and its moment about the segment's middle.
+    steps : int
+        Number of steps of the integrator.
+    setup_seconds, solve_seconds : float [s]
+        Time for the set-up and for the run.
+    resumed_from : float [s], optional
+        Time at which the run resumed an earlier one.
+    extra : dict, optional
+        Frames and other data that a caller requested.
     """
 
     file_name = "history"
@@ -62,21 +98,27 @@ class History(Answer):
 
     @property
     def balance(self) -> np.ndarray:
-        """kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run; nan where
-        energies are not known."""
+        """Return kinetic + elastic + potential + dissipated − work, (n,) [J]: constant in an exact run. It is
+        nan if the program does not report energies."""
         e = self.energies or dict.fromkeys(ENERGIES, np.full(len(self.time), np.nan))
         return np.asarray(e["kinetic"] + e["elastic"] + e["potential"] + e["dissipated"] - e["work"])
 
     @property
     def numerical(self) -> np.ndarray:
-        """Energy (n,) [J] that the rule of integration has taken since the start, < 0 where it gave some: by
-        how much the balance has fallen."""
+        """Return the energy (n,) [J] that the integrator has dissipated: the fall of the balance."""
         return self.balance[:1].sum() - self.balance
 
     @property
     def accounts(self) -> dict[str, np.ndarray]:
-        """The energies with what the rule takes, none where they are not known."""
+        """Return the energies, with the integrator's own dissipation; empty if there are none."""
         return {**self.energies, "numerical": self.numerical} if self.energies else {}
+
+    def gradient(self, *_: Any, **__: Any) -> None:
+        """Refuse adjoint derivatives, which motions do not have, by name: BadInput."""
+        raise BadInput(
+            "gradient: a motion has no derivatives by an adjoint in time; lumped.simulate(..., sensitivities="
+            "['young']) has those by up to 20 parameters"
+        )
 
     def heading(self) -> tuple[str, str, str]:
         return f"History of {self.label}, {self.integrator}", f"{self.status}", f"{self.steps} steps"
@@ -86,18 +128,21 @@ class History(Answer):
         return {**own, "energy": self.balance, "status": str(self.status), "energies": self.accounts}
 
     def tables(self) -> tuple[Table, ...]:
-        """A row per probe: the displacement at the end and its largest excursion."""
-        rows = [(name, *u[-1], np.abs(u).max()) for name, u in self.probes.items() if len(u)]
+        """Return a table with a row per probe: its last displacement and its largest component."""
+        rows = [
+            ExcursionRow(name, *u[-1].tolist(), *[np.abs(u).max()])
+            for name, u in self.probes.items()
+            if len(u)
+        ]
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and its largest component during the motion"
-        moved = (MILLIMETRES("z.3f", name) for name in (*COMPONENTS, "largest"))
-        return (Table.listed(caption, ("probe", *moved), rows, "probes"),)
+        return (Table.of(ExcursionRow, rows, caption, "probes"),)
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("history", "sheetbench.answers.history_figure:compose", (self, self.label)),)
 
     def files(self) -> dict[str, Write]:
-        """All samples as CSV, and those of the probes a row each, as `identify --measured` reads them."""
+        """Return writers of CSV files: all samples, and the probes' in rows for `identify --measured`."""
         columns = (Column("time", "s"), Column("probe"), *(Column(name, "m") for name in COMPONENTS))
         rows = tuple(
             (time, name, *u)
@@ -108,8 +153,7 @@ class History(Answer):
         return {name: partial(write_text, text=table.to_csv()) for name, table in tables.items()}
 
     def notes(self) -> list[str]:
-        """Where the run went on from, why the integrator is the one that it is, how long explicit steps
-        may be, and how well the run kept its energy, a line each."""
+        """Return sentences on a resumed run, the choice of integrator, the stable step and the energy."""
         notes = []
         if self.resumed_from:
             notes.append(f"went on from {self.resumed_from:.4g} s, which an earlier run had reached")
@@ -135,34 +179,34 @@ class History(Answer):
 
     @property
     def succeeded(self) -> bool:
-        """Whether the run reached its end."""
+        """Return whether the run reached its end."""
         return self.status is Status.CONVERGED
 
     def series(self) -> Table:
-        """A row per sample: time, probes, energies, reactions and what every segment of actuators exerts."""
-        known = {**self.accounts, "balance": self.balance} if self.energies else {}
-        found = [("time", "s", self.time)]
+        """Return a row per sample: time, probes, energies, reactions, forces and moments of every segment."""
+        energies = {**self.accounts, "balance": self.balance} if self.energies else {}
+        series = [("time", "s", self.time)]
         for name, u in self.probes.items():
-            found += _parts(name, "u", "m", u)
-        found += [(name, "J", energy) for name, energy in known.items()]
+            series += _parts(name, "u", "m", u)
+        series += [(name, "J", energy) for name, energy in energies.items()]
         for name, force in self.reactions.items():
-            found += _parts(name, "F", "N", force)
+            series += _parts(name, "F", "N", force)
         for name, wrench in self.actuators.items():
-            for segment, of in enumerate(wrench.swapaxes(0, 1)):
-                one = f"{name}.{segment}"
-                found += [*_parts(one, "F", "N", of[:, :3]), *_parts(one, "M", "N·m", of[:, 3:])]
-        columns = tuple(Column(name, unit) for name, unit, _ in found)
-        rows = zip(*(values.tolist() for *_, values in found), strict=True)
+            for i, values in enumerate(wrench.swapaxes(0, 1)):
+                segment = f"{name}.{i}"
+                series += [*_parts(segment, "F", "N", values[:, :3])]
+                series += [*_parts(segment, "M", "N·m", values[:, 3:])]
+        columns = tuple(Column(name, unit) for name, unit, _ in series)
+        rows = zip(*(values.tolist() for *_, values in series), strict=True)
         return Table("History", columns, tuple(rows))
 
     def to_pandas(self, table: str = "") -> pandas.DataFrame:
-        """Return all samples in SI units, or the table of a name. Raises BadInput as `Answer.to_pandas`."""
+        """Return all samples in SI units, or the table of a name. Raises BadInput for an unknown name."""
         return super().to_pandas(table) if table else self.series().to_pandas()
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return displacement [m] by probe, time and axis, energies [J] and reactions [N] by time.
-
-        Raises BadInput where xarray is not installed."""
+        """Return displacement [m] by probe, time and axis, energies [J] and reactions [N] by time. Raises
+        BadInput if xarray is not installed."""
         try:
             import xarray
         except ModuleNotFoundError:

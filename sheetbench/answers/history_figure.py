@@ -11,15 +11,15 @@ from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.history import History
 from sheetbench.answers.style import COMPONENTS, MOST, plain
 
-DASHES: Any = {"uy": (0, (4, 4))}  # of a symmetric sheet it lies on ux
+DASHES: Any = {"uy": (0, (4, 4))}  # on a symmetric sheet the curve of uy lies on the curve of ux
 ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 
 def compose(history: History, title: str, style: FigureStyle = PLAIN) -> Figure:
-    """The figure with a panel per probe, and the energies below; of many probes those that move most."""
-    farthest = {name: float(np.abs(u).max(initial=0.0)) for name, u in history.probes.items()}
-    kept = sorted(farthest, key=farthest.__getitem__, reverse=True)[:MOST]
-    shown = [name for name in farthest if name in kept]
+    """Draw a panel per probe, at most MOST with the largest displacements, and the energies below."""
+    excursions = {name: float(np.abs(u).max(initial=0.0)) for name, u in history.probes.items()}
+    largest = sorted(excursions, key=excursions.__getitem__, reverse=True)[:MOST]
+    shown = [name for name in excursions if name in largest]
     count = len(shown)
     figure = Figure(figsize=(style.width, 1.5 * count + 1.9), layout="constrained")
     panels = figure.subplots(count + 1, 1, sharex=True, squeeze=False)[:, 0]
@@ -40,8 +40,8 @@ def compose(history: History, title: str, style: FigureStyle = PLAIN) -> Figure:
     panels[-1].legend(ncols=3 if style.narrow else 5, fontsize=6.5, **ABOVE)
     for axis in panels:
         axis.margins(x=0)
-    left = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
-    text = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{left}"
+    omitted = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""
+    text = f"{plain(title, width=95)}\n{history.label}, {history.integrator}{omitted}"
     if style.titled:
         figure.suptitle(text, fontsize=8)
     return figure

@@ -1,7 +1,7 @@
-"""A table as lines of text within a width, laid out by rich: every figure is whole, and nothing is cut off.
+"""A table as lines of text within a width, laid out by rich: every number is whole, and nothing is cut off.
 
-Headings and prose are broken over lines at spaces. A table that is still too wide stands in blocks one under
-the other, each led by the columns that name the rows. Only a word longer than the width itself is broken.
+Headings and prose are broken over lines at spaces. A table that is still too wide is split into blocks one
+under the other, each with the columns that name the rows first. Only a word longer than the width is broken.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from sheetbench.answers.escape import terminal
 from sheetbench.answers.table import Column, Table
 
 GAP, RULE = 2, "─"  # blanks between columns; the line under headings and between groups
-PROSE = 24  # a narrower column of prose is no pleasure to read
-LEAST, UNBOUNDED = 20, 10_000  # columns of any output, and of one that is no terminal
+PROSE = 24  # characters: least width of a column of prose
+LEAST, UNBOUNDED = 20, 10_000  # characters of a line: least width, and width without a terminal
 BOX = Box("\n".join(["    ", "    ", 4 * RULE, "    ", 4 * RULE, "    ", "    ", "    "]) + "\n")
 
 
 @dataclass(frozen=True)
 class Block:
-    """Columns that stand side by side: heading lines, a rule as wide as they are, and lines of rows."""
+    """Columns side by side: lines of headings, a rule as wide as they are, and lines of rows."""
 
     head: list[str]
     rule: str
@@ -47,14 +47,14 @@ class _Strip:
 
     @property
     def narrow(self) -> int:
-        """The width at which every number and every word is whole, and prose can still be read."""
+        """Return the width at which every number and word is whole, and prose has its least width."""
         most = PROSE if self.column.prose else UNBOUNDED
         words = [word for text in (self.name, *self.cells) for word in text.split()]
         return max(*map(cell_len, [*words, self.unit]), *(min(cell_len(c), most) for c in self.cells))
 
     @property
     def wide(self) -> int:
-        """The width at which not even the name is broken."""
+        """Return the width at which the name is not broken either."""
         return max(self.narrow, cell_len(self.name))
 
     def head(self, width: int) -> list[str]:
@@ -64,8 +64,7 @@ class _Strip:
 
 
 def blocks(table: Table, width: int | None) -> list[Block]:
-    """Return the table without its details, in blocks of at most `width` columns of text; without one, in
-    one."""
+    """Return the table without its details, in blocks of at most `width` characters, or in one (None)."""
     width = width and max(width, LEAST)
     shown = [[terminal(text) for text in row] for row in table.shown_rows()]
     strips = [
@@ -81,11 +80,11 @@ def blocks(table: Table, width: int | None) -> list[Block]:
     naming = next((i for i, one in enumerate(strips) if one.column.numeric or one.column.prose), 1)
     while naming < len(strips) - 1 and len({row[:naming] for row in rows}) < len(rows):
         naming += 1
-    return [_block(part, width) for part in _stacked(strips, max(naming, 1), width)]
+    return [_block(part, width) for part in _split(strips, max(naming, 1), width)]
 
 
 def text(table: Table, most: int | None = None) -> str:
-    """Return the table as text, its caption above it, as wide as the terminal; most: rows."""
+    """Return the table with its caption as text as wide as the terminal; most: the number of rows shown."""
     width = get_terminal_size((100, 24)).columns
     left_out = len(table.rows[most:]) if most else 0
     table = replace(table, rows=table.rows[:most])
@@ -95,13 +94,13 @@ def text(table: Table, most: int | None = None) -> str:
 
 
 def _fits(strips: list[_Strip], width: int | None, whole: bool = False) -> bool:
-    """Whether the columns go side by side; whole: with their names in a line."""
+    """Return whether the columns fit side by side; whole: with their names in one line."""
     widths = (strip.wide if whole else strip.narrow for strip in strips)
     return width is None or sum(widths) + GAP * (len(strips) - 1) <= width
 
 
-def _stacked(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
-    """Return the columns in as few blocks as the width allows, the `naming` ones in front of each."""
+def _split(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
+    """Return the columns in as few blocks as the width allows, each with the first `naming` columns."""
     if _fits(strips, width):
         return [strips]
     while naming > 1 and not _fits(strips[:naming], 2 * (width or 0) // 3):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -16,13 +16,22 @@ from sheetbench.scenes.meaning.kinematics import bent_or_tilted
 from sheetbench.scenes.objects.loads import EdgeLoad, Pressure
 from sheetbench.scenes.scene import Scene
 
-STILL = 1e-9  # displacement over the sheet's side within which what is loaded does not move
+STILL = 1e-9  # displacement over the sheet's side below which a loaded sheet does not move
+
+
+@dataclass(frozen=True)
+class FrequencyRow:
+    """Natural frequency of a mode [Hz]."""
+
+    mode: Annotated[int, NUMBER("d")]
+    frequency: Annotated[float, HERTZ(".5g")]
 
 
 @dataclass(frozen=True, repr=False)
 class NaturalModes(Answer):
-    """Base of a model's modes; frequencies: (count,) [Hz], rising; shapes: (count, n, 3) of its nodes; rigid:
-    how many rigid motions there are beside them; unknowns: of the eigenproblem."""
+    """Base of a model's modes. frequencies: (count,) [Hz], rising. shapes: (count, n, 3), displacements of
+    the model's nodes. rigid: the number of rigid motions, which are left out. unknowns: of the
+    eigenproblem."""
 
     file_name = "modes"
     frequencies: np.ndarray
@@ -32,14 +41,14 @@ class NaturalModes(Answer):
 
     @abstractmethod
     def displacement(self, points: np.ndarray) -> np.ndarray:
-        """Mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
+        """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
 
     def document(self) -> dict[str, Any]:
         return {"frequencies_hz": self.frequencies, "rigid_modes": self.rigid, "unknowns": self.unknowns}
 
     def tables(self) -> tuple[Table, ...]:
-        columns, rows = (NUMBER("d", "mode"), HERTZ(".5g", "frequency")), enumerate(self.frequencies, start=1)
-        return (Table.listed("Natural frequencies", columns, rows, "modes"),)
+        rows = [FrequencyRow(number, f) for number, f in enumerate(self.frequencies, start=1)]
+        return (Table.of(FrequencyRow, rows, "Natural frequencies", "modes"),)
 
     def notes(self) -> list[str]:
         return [f"{self.rigid} rigid motions are left out"] if self.rigid else []
@@ -47,8 +56,9 @@ class NaturalModes(Answer):
 
 @dataclass(frozen=True, eq=False)
 class Buckling:
-    """How a flat sheet buckles: at so many times its loads (count,), lowest first; displacement: plan points
-    (p, 2) [m] → of the mid-surface in every shape, (count, p, 3), of any scale."""
+    """Buckling loads of a flat sheet as factors (count,) of its loads, lowest first, and their shapes.
+    displacement: plan points (p, 2) [m] → mid-surface displacement (count, p, 3) of the shapes, of any
+    scale."""
 
     model: str
     label: str
@@ -59,14 +69,14 @@ class Buckling:
     displacement: Callable[[np.ndarray], np.ndarray]
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the numbers for JSON."""
         keys = ("model", "label", "settings", "load_factors", "unknowns")
         return {**{key: getattr(self, key) for key in keys}, "solve_seconds": self.seconds}
 
 
 def require_flat_and_dead(scene: Scene) -> None:
-    """Raise BadInput for what has no buckling load: loads that follow the sheet, actuators, supports that
-    bend or tilt it."""
+    """Raise BadInput for a scene without a linear buckling load. The sheet must be flat, without actuators
+    and bent or tilted supports, and its loads dead."""
     for number, load in enumerate(scene.loads, start=1):
         follower = "kind = 'pressure'" if isinstance(load, Pressure) else ""
         if isinstance(load, EdgeLoad) and load.moment_per_length:

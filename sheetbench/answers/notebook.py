@@ -1,6 +1,6 @@
-"""Answers as a notebook shows them: tables and the picture in HTML, the picture alone as PNG.
+"""Display of answers in a notebook: tables and the picture in HTML, the picture alone as PNG.
 
-A notebook shows the richest form alone, so the HTML has the picture in it; both come of one drawing.
+A notebook shows the richest form alone, so the HTML contains the picture; both are of one drawing.
 """
 
 from __future__ import annotations
@@ -34,17 +34,16 @@ def png(figure: Figure) -> bytes:
 
 
 def drawn(pictures: tuple[Picture, ...]) -> bytes | None:
-    """Return the first of the pictures that is a figure as PNG; None where there is none, or it cannot be
-    drawn."""
+    """Return the first figure of the pictures as PNG, or None if there is none or it cannot be drawn."""
     return next((picture._repr_png_() for picture in pictures if not picture.moves), None)
 
 
 def table_html(table: Table, details: bool = True, most: int | None = None) -> str:
-    """Return a table; details: with those columns that a terminal leaves out; most: rows that are shown."""
-    kept = [i for i, column in enumerate(table.columns) if details or not column.detail]
-    aligned = [ALIGNED[table.columns[i].numeric] for i in kept]
-    shown = [[row[i] for i in kept] for row in table.shown_rows()]
-    rows = [[table.columns[i].header(shown=True) for i in kept], *shown[:most]]
+    """Return a table; details: with the columns that a terminal leaves out; most: number of rows shown."""
+    numbers = [i for i, column in enumerate(table.columns) if details or not column.detail]
+    aligned = [ALIGNED[table.columns[i].numeric] for i in numbers]
+    shown = [[row[i] for i in numbers] for row in table.shown_rows()]
+    rows = [[table.columns[i].header(shown=True) for i in numbers], *shown[:most]]
     lines = [
         "<tr>" + "".join(f"<{tag}{at}>{html(text)}</{tag}>" for at, text in zip(aligned, row, strict=True))
         for tag, row in zip(["th", *["td"] * len(rows)], rows, strict=False)
@@ -69,5 +68,5 @@ def report_html(report: Report, picture: bytes | None) -> str:
 def bundle(report: Report) -> dict[str, Any]:
     """Return a report by the kinds of content that a notebook takes."""
     picture = drawn(report.pictures)
-    found: dict[str, Any] = {"text/html": report_html(report, picture)}
-    return found if picture is None else {**found, "image/png": picture}
+    content: dict[str, Any] = {"text/html": report_html(report, picture)}
+    return content if picture is None else {**content, "image/png": picture}

@@ -1,7 +1,7 @@
-"""What a question's answer has to show: one type that every way of showing takes.
+"""Reports: the parts of an answer in one type, from which every display of it is made.
 
-A terminal, a JSON document and a folder of files are made from it, in one place each; a question only says
-what its tables, notes and pictures are.
+A terminal, a JSON document and a folder of files are made from a report, in one place each; an answer only
+provides its tables, notes and pictures.
 """
 
 from __future__ import annotations
@@ -30,16 +30,17 @@ RASTER, FILM = ("png", "pdf"), ("gif",)
 
 
 class NoPicture(Exception):
-    """Why a figure cannot be drawn here, in a sentence."""
+    """The reason why a figure cannot be drawn, in a sentence."""
 
 
 @dataclass(frozen=True)
 class Picture:
     """A figure of an answer, made when it is drawn.
 
-    compose: "module:function", which makes the figure `of` these in a style, or raises NoPicture. name: of
-    its files, without suffixes; description: kept in the files, the answer in a line unless given; formats:
-    RASTER where most of it is an image, FILM where `compose` writes the files itself, and knows no style.
+    compose: "module:function", which makes the figure of the arguments `of` in a style, or raises NoPicture.
+    name: name of the files, without suffixes. description: kept in the files, the answer in a line unless
+    given. formats: RASTER for a picture that is mostly an image, FILM if `compose` writes the files itself,
+    without a style.
     """
 
     name: str
@@ -51,7 +52,7 @@ class Picture:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of its files."""
+        """Return the names of the files."""
         return tuple(f"{self.name}.{suffix}" for suffix in self.formats)
 
     def figure(self) -> Figure:
@@ -62,23 +63,23 @@ class Picture:
 
         with rc_context(STYLE):
             figure: Figure = resolve_name(self.compose)(*self.of, self.style)
-        figure.__dict__["_repr_png_"] = partial(notebook.png, figure)  # as a notebook shows it
+        figure.__dict__["_repr_png_"] = partial(notebook.png, figure)  # for notebooks
         return figure
 
     @property
     def moves(self) -> bool:
-        """Whether it is a film, which is written and not shown."""
+        """Return whether the picture is a film, which is written and not shown."""
         return self.formats == FILM
 
     def _repr_png_(self) -> bytes | None:
-        """Return the figure for a notebook, None where it cannot be drawn."""
+        """Return the figure for a notebook, None if it cannot be drawn."""
         try:
             return None if self.moves else notebook.png(self.figure())
         except NoPicture:
             return None
 
     def write(self, folder: Path) -> str | None:
-        """Write the files into a folder; a sentence that says why there are none."""
+        """Write the files into a folder; return the reason if the picture cannot be drawn, else None."""
         from sheetbench.answers.style import save
 
         paths = [folder / name for name in self.names]
@@ -92,15 +93,15 @@ class Picture:
         return None
 
     def with_styles(self, styles: Sequence[FigureStyle]) -> tuple[Picture, ...]:
-        """Return the picture in each of the styles, and in its formats where it names some."""
+        """Return the picture in each of the styles, and in the style's formats if it names some."""
         if self.moves:
             return (self,)
         return tuple(replace(self, style=one, formats=one.formats or self.formats) for one in styles)
 
 
 def drawn_from(tables: Iterable[Table]) -> str:
-    """Return the description of a picture of tables: sixteen digits that follow from their numbers, each to a
-    thousandth of its column's largest."""
+    """Return the description of a picture of tables: sixteen digits, a digest of their numbers. Numbers are
+    rounded to a thousandth of the largest in their column."""
 
     def rounded(column: tuple[Any, ...]) -> list[float]:
         numbers = [one for one in column if isinstance(one, float) and isfinite(one)]
@@ -114,12 +115,12 @@ def drawn_from(tables: Iterable[Table]) -> str:
 class Report:
     """The answer to a question, ready to be shown.
 
-    name: of the document's file; page: of the tables' in Markdown, `name` unless given.
-    title, subtitle, lead: what it is about, and a line more. result: the answer in a line. tables: in the
-    files, each with a name in CSV too; printed: what a terminal shows instead of them. notes: remarks under
-    the tables, notes_shown of them on a terminal without --verbose. complaints: what went wrong, a sentence
-    each. document: the JSON document. attachments: further files by name, with what writes them. settings:
-    for the manifest. succeeded: whether the question has its answer.
+    name: name of the document's file; page: name of the Markdown file, `name` unless given. title, subtitle,
+    lead: the subject, and a further line. result: the answer in a line. tables: the tables in the files, in
+    CSV too if they have names; printed: the tables on a terminal in place of them. notes: remarks under the
+    tables, of which a terminal shows `notes_shown` without --verbose. complaints: sentences on failures.
+    document: the JSON document. attachments: writers of further files by the files' names. settings: for the
+    manifest. succeeded: whether the question has its answer.
     """
 
     name: str
@@ -141,13 +142,13 @@ class Report:
 
     @property
     def shown(self) -> tuple[Table, ...]:
-        """The tables for a terminal."""
+        """Return the tables for a terminal."""
         return self.tables if self.printed is None else self.printed
 
     def save(self, folder: Path | str, figure: str | None = None) -> tuple[str, ...]:
-        """Write every file and picture into a folder; sentences that say why a picture is missing.
+        """Write every file and picture into a folder; return sentences on missing pictures.
 
-        figure: pictures for a paper, as `--figure` has them: "pdf", "svg:single,png". Raises BadInput.
+        figure: pictures for a paper, in the words of `--figure`: "pdf", "svg:single,png". Raises BadInput.
         """
         styled, target = self.with_styles(parse_figure(figure)), made(folder, "folder")
         for name, write in styled.files().items():
@@ -168,7 +169,7 @@ class Report:
         return notebook.bundle(self)
 
     def text(self, most: int | None = None) -> str:
-        """Return title, tables and complaints; most: rows of a table."""
+        """Return title, tables and complaints as text; most: the largest number of rows of a table."""
         from sheetbench.answers.layout import text
 
         title = terminal("  ".join(filter(None, [self.title, self.subtitle])))
@@ -176,7 +177,7 @@ class Report:
         return "\n".join([title, "", *tables, *map(terminal, self.complaints)]).rstrip()
 
     def files(self, made_with: str = "") -> dict[str, Write]:
-        """Return every file but the pictures, by name, with what writes it. made_with: a line under the
+        """Return the writers of all files but the pictures, by the files' names. made_with: a line under the
         page."""
         page = self.page or self.name
         texts = {
@@ -188,8 +189,8 @@ class Report:
         return {**self.attachments, **{name: partial(write_text, text=text) for name, text in texts.items()}}
 
     def to_markdown(self, made_with: str = "") -> str:
-        """Return a page with all tables, notes and complaints; a table's text comes with the picture of its
-        name."""
+        """Return a page with all tables, notes and complaints. A table with a text is followed by the picture
+        of the table's name."""
         drawn = {picture.name: picture.names[0] for picture in self.pictures}
         parts = [f"# {markdown(self.title)}\n"]
         parts += [f"{markdown(line)}\n" for line in (self.subtitle, self.lead) if line]
@@ -207,8 +208,8 @@ class Report:
         return "\n".join([*parts, f"{made_with}\n"] if made_with else parts)
 
     def words(self) -> dict[str, Any]:
-        """Return what the files do not say by themselves, ready for JSON: words, headings of tables (with
-        the rows of those that have no file), pictures."""
+        """Return texts, headings of tables and names of pictures, ready for JSON. They complete the files:
+        rows are included for tables without a file."""
         own = ("title", "subtitle", "lead", "result", "notes", "complaints")
         return {
             **{name: getattr(self, name) for name in own},

@@ -1,13 +1,13 @@
-"""The size of a solve, known before anything is built: unknowns, memory and time.
+"""The size of a solve, computed before it is set up: unknowns, memory and time.
 
-The factors of a matrix whose graph is a grid of N nodes with d unknowns each, s of them along the shorter
-side, ordered by nested dissection:
+The factors of a matrix whose graph is a grid of N nodes with d unknowns each, s nodes along the shorter side,
+ordered by nested dissection, have
 
     nonzeros   31/4 N log2(s) d²          operations   829/84 N s d³
 
-and those of a band where that is less, on strips: N (s + 1) d² and N (s + 1)² d³. Sources: A. George, SIAM J.
-Numer. Anal. 10 (1973) 345–363 (square grids); R. J. Lipton, D. J. Rose, R. E. Tarjan, SIAM J. Numer. Anal. 16
-(1979) 346–358. What a model needs beside is its own affair.
+and a band, which is less on strips, N (s + 1) d² and N (s + 1)² d³. Sources: A. George, SIAM J. Numer. Anal.
+10 (1973) 345–363 (square grids); R. J. Lipton, D. J. Rose, R. E. Tarjan, SIAM J. Numer. Anal. 16 (1979)
+346–358. Each model adds its own further needs.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from math import log2
 
 @dataclass(frozen=True)
 class Size:
-    """unknowns; memory: the peak [bytes] above what the code takes; seconds: on one core, of a static solve
-    that needs the usual handful of factorisations."""
+    """Size of a static solve. memory: the peak [bytes] above the code's own. seconds: on one core, with the
+    usual five factorisations or so."""
 
     unknowns: int
     memory: float
@@ -27,7 +27,8 @@ class Size:
 
 
 def factors(nodes: tuple[int, int], unknowns: int) -> tuple[float, float]:
-    """Nonzeros, and operations that make them, of the factors of a grid with so many unknowns a node."""
+    """Return the nonzeros of the factors of a grid, and the operations to compute them. unknowns: the number
+    of unknowns a node."""
     shorter, count = min(nodes), nodes[0] * nodes[1]
     nonzeros = count * min(31 / 4 * log2(shorter), shorter + 1.0)
     operations = count * min(829 / 84 * shorter, (shorter + 1.0) ** 2)

@@ -1,6 +1,6 @@
-"""What every model answers with: status, displacement anywhere on the sheet, reactions, energies, timings.
+"""The answer of a static model: status, displacement anywhere on the sheet, reactions, energies, timings.
 
-Part of the question's language: it holds no mechanics, so both solvers and any plug-in can use it.
+It holds no mechanics, so that both solvers and any plug-in can use it.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import numpy as np
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from sheetbench.scenes.scene import Scene
 
-About = Literal["flat", "deformed"]  # what oscillations are about: the sheet at rest, or its equilibrium
+About = Literal["flat", "deformed"]  # state about which a sheet oscillates: flat, or its equilibrium
 
 
 _FINER = "more masses (--lumped) or elements (--elements) may help, or a lighter load"
@@ -37,12 +37,12 @@ _KEPT = f"{_FINER}; the last converged load is kept"
 
 
 class Status(StrEnum):
-    """How a solve ended, each with a sentence, its `advice`: what happened and what a user can change."""
+    """The end of a solve, with a sentence, its `advice`, on the event and a remedy."""
 
     advice: str
 
     def __new__(cls, text: str, advice: str = "") -> Self:
-        """Return the status of a text."""
+        """Make a status of its text and its advice."""
         status = str.__new__(cls, text)
         status._value_, status.advice = text, advice
         return status
@@ -70,14 +70,9 @@ COMPONENTS = ("ux", "uy", "uz")
 STEP = 1e-5  # of the largest displacement, for differences of a function of displacements
 
 
-def _parameter_name(key: str) -> str:
-    """Return the name of a number of a scene by its key: "material.young" is young."""
-    return key.removeprefix("material.").removeprefix("sheet.")
-
-
 def comparable(status: str, load_factor: float) -> bool:
-    """Whether an answer that ended so may be compared with others: an equilibrium under the whole load,
-    stable and physical or not."""
+    """Return whether an answer may be compared with others by its status and load factor. It must be an
+    equilibrium under the whole load, stable and physical or not."""
     return status in _EQUILIBRIA and load_factor == 1.0
 
 
@@ -122,13 +117,38 @@ class FieldMesh:
         return f"FieldMesh of {len(self.points)} points and {cells} with {fields}"
 
 
-COST = (
-    *(NUMBER("d", "unknowns"), NUMBER("d", "factorisations"), MILLISECONDS(".3g", "set-up")),
-    *(MILLISECONDS(".3g", "solve"), MILLIMETRES(".4g", "largest displacement")),
-)
-MOVED = ("probe", *(MILLIMETRES("z.3f", f"u{axis}") for axis in "xyz"))
-HELD = ("edge", *(NEWTONS("z.4f", f"F{axis}") for axis in "xyz"))
-DOCUMENTED = (  # as they are, in the JSON document
+@dataclass(frozen=True)
+class CostRow:
+    """Cost of a solve [s], and the largest displacement [m]."""
+
+    unknowns: Annotated[int, NUMBER("d")]
+    factorisations: Annotated[int, NUMBER("d")]
+    setup: Annotated[float, MILLISECONDS(".3g", "set-up")]
+    solve: Annotated[float, MILLISECONDS(".3g")]
+    largest: Annotated[float, MILLIMETRES(".4g", "largest displacement")]
+
+
+@dataclass(frozen=True)
+class ProbeRow:
+    """Displacement of the mid-surface at a probe [m]."""
+
+    probe: str
+    ux: Annotated[float, MILLIMETRES("z.3f")]
+    uy: Annotated[float, MILLIMETRES("z.3f")]
+    uz: Annotated[float, MILLIMETRES("z.3f")]
+
+
+@dataclass(frozen=True)
+class ReactionRow:
+    """Force of a support on the sheet [N]."""
+
+    edge: str
+    x: Annotated[float, NEWTONS("z.4f", "Fx")]
+    y: Annotated[float, NEWTONS("z.4f", "Fy")]
+    z: Annotated[float, NEWTONS("z.4f", "Fz")]
+
+
+DOCUMENTED = (  # fields that the JSON document has unchanged
     "model", "label", "settings", "message", "stretch", "load_factor", "unknowns", "iterations",
     "solve_seconds", "setup_seconds", "reactions", "energies",
 )  # fmt: skip
@@ -138,19 +158,50 @@ DOCUMENTED = (  # as they are, in the JSON document
 class Solution(Answer):
     """A model's answer to a static scene.
 
-    sample: plan points (n, 2) [m] → mid-surface displacement (n, 3) [m]; reactions: force (3,) [N] that a
-    support or a prescribed motion exerts on the sheet, by its edge, and a held base on its chain, by "EDGE
-    base"; energies: name → [J]; iterations: tangent factorisations, all
-    of them; load_factor: 1 where the full load was reached, else the last converged load; actuators: name →
-    force and moment of each segment on the sheet, (segments, 6) [N, N·m]. balance: what the forces leave
-    over, None where a model does not tell; an equilibrium that is out of balance is none, its status
-    `diverged`. snaps: load factors at which the
-    sheet left its load path for an equilibrium far away; fallback: what was solved in place of what was
-    asked, and why; remarks: what else there is to say, a clause each. stretch: the largest elongation of the
-    mid-surface, None where a model does not tell. points: plan points [m] of the
-    scene's probes by name, as far as a verb knows them. contacts: what is known of the contact with each
-    obstacle, whose force on the sheet is among the reactions. sensitivity: makes the derivatives of the
-    equilibrium (`names`, `at_points`, `pullback`, `pushforward`), None of a model without.
+    Parameters
+    ----------
+    model, label : str
+        The model's name, and the model in words.
+    settings : dict
+        The model's settings.
+    status : Status
+        The end of the solve; an equilibrium out of balance becomes `diverged`.
+    unknowns, iterations : int
+        Number of unknowns, and of all factorisations of the tangent.
+    setup_seconds, solve_seconds : float [s]
+        Time for the set-up and for the solve.
+    sample : callable
+        Plan points (n, 2) [m] → mid-surface displacement (n, 3) [m].
+    reactions : dict of str to ndarray, (3,) [N]
+        Force of each support or prescribed motion on the sheet by its edge, of a held base on its chain by
+        "EDGE base", of an obstacle by its name.
+    energies : dict of str to float [J]
+        Energies by name.
+    mesh : FieldMesh
+        The mesh with the displacement, for files.
+    history : tuple of Iteration, optional
+        Iterations of the solve.
+    load_factor : float, optional
+        1 if the full load was reached, else the last converged load.
+    actuators : dict of str to ndarray, (segments, 6) [N, N·m], optional
+        Force and moment of each segment of an actuator on the sheet.
+    balance : Balance, optional
+        Residual of all forces, None if a model does not report it.
+    snaps : tuple of float, optional
+        Load factors at which the sheet left its load path for an equilibrium far away.
+    fallback : str, optional
+        A clause on a method used in place of the requested one.
+    remarks : tuple of str, optional
+        Further clauses.
+    stretch : float, optional
+        Largest elongation of the mid-surface, None if a model does not report it.
+    points : dict of str to (float, float) [m], optional
+        Plan points of the scene's probes by name.
+    contacts : dict of str to ContactState, optional
+        Contact with each obstacle by the obstacle's name.
+    sensitivity : callable, optional
+        Makes the derivatives of the equilibrium (`names`, `at_points`, `pullback`, `pushforward`), None for
+        a model without derivatives.
     """
 
     file_name = "solution"
@@ -185,19 +236,19 @@ class Solution(Answer):
 
     @property
     def message(self) -> str:
-        """Fallback, snaps and remarks in a line, for people."""
+        """Return fallback, snaps, remarks and notes on contacts in a line."""
         snapped = (f"snapped at load factor {load_factor:.4g}" for load_factor in self.snaps)
-        doubts = (f"{name}: {note}" for name, one in self.contacts.items() for note in one.notes)
-        return "; ".join(filter(None, [self.fallback, *snapped, *self.remarks, *doubts]))
+        contacts = (f"{name}: {note}" for name, one in self.contacts.items() for note in one.notes)
+        return "; ".join(filter(None, [self.fallback, *snapped, *self.remarks, *contacts]))
 
     @property
     def status_text(self) -> str:
-        """The status, with the share of the load that was reached if it is not all of it."""
+        """Return the status, with the reached share of the load unless it is the whole load."""
         reached = "" if self.load_factor == 1.0 else f" at {100 * self.load_factor:.3g} % of the load"
         return f"{self.status}{reached}"
 
     def document(self, scene: Scene | None = None) -> dict[str, Any]:
-        """The JSON document, SI units; probes are the scene's, or else those whose points are known."""
+        """Return the JSON document in SI units, with the displacements at a scene's or the own probes."""
         points = self.points if scene is None else scene.probes
         moved = [*self.displacement(np.array([*points.values()]))] if points else []
         return {
@@ -212,28 +263,28 @@ class Solution(Answer):
 
     @property
     def touched(self) -> frozenset[str]:
-        """The names of the obstacles that it touches."""
+        """Return the names of the obstacles that the sheet touches."""
         return frozenset(name for name, contact in self.contacts.items() if contact.points)
 
     @property
     def comparable(self) -> bool:
-        """Whether it may be compared with others, as `comparable` has it."""
+        """Return whether the answer may be compared with others, by the function `comparable`."""
         return comparable(self.status, self.load_factor)
 
     def require_stable(self) -> Self:
-        """Return this answer. Raises NoEquilibrium unless it is a stable equilibrium under the whole load."""
+        """Return the answer. Raises NoEquilibrium unless it is a stable equilibrium under the whole load."""
         if self.status is not Status.CONVERGED or not self.comparable:
             raise NoEquilibrium(f"{self.label}: {self.status}: {self.message or self.status.advice}")
         return self
 
     @property
     def probes(self) -> dict[str, np.ndarray]:
-        """Displacement (3,) [m] at each of the scene's probes, by name."""
+        """Return the displacement (3,) [m] at each of the scene's probes, by name."""
         return {name: self.displacement(np.array([at]))[0] for name, at in self.points.items()}
 
     def displacement(self, points: np.ndarray | str) -> np.ndarray:
-        """Mid-surface displacement (n, 3) [m] at plan points (n, 2) [m] of the undeformed sheet, or (3,) at
-        the probe of a name. Raises BadInput for a name that no probe has."""
+        """Return the mid-surface displacement (n, 3) [m] at plan points (n, 2) [m], or (3,) at a probe.
+        points: of the undeformed sheet, or a probe's name. Raises BadInput for an unknown name."""
         if isinstance(points, str):
             if points not in self.points:
                 known = ", ".join(self.points) or "none are kept here: give plan points (n, 2) [m]"
@@ -265,7 +316,7 @@ class Solution(Answer):
         points = np.array([*self.points.values()]) if at is None else np.reshape(at, (-1, 2))
         found = self.sensitivity().at_points(points, self._by_displacements(of, points))
         if by is not None:
-            return {name: found[_parameter_name(name)] for name in by}
+            return {name: found[name] for name in by}
         every = {}
         for name in found:
             with suppress(BadInput):  # as a clamp's tilt is where another one shares its corner
@@ -292,8 +343,8 @@ class Solution(Answer):
         return given
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
-        """The undeformed mesh with its fields, `displacement` as the active vectors, for pyvista:
-        `solution.to_pyvista().warp_by_vector().plot()`."""
+        """Convert the undeformed mesh with its fields to pyvista, with `displacement` as active vectors.
+        `solution.to_pyvista().warp_by_vector().plot()` draws the deformed sheet."""
         import pyvista
 
         grid = pyvista.from_meshio(self.mesh.to_meshio())
@@ -304,20 +355,28 @@ class Solution(Answer):
         return f"Solution of {self.label}", self.status_text, ""
 
     def tables(self) -> tuple[Table, ...]:
-        """What it cost and how far it goes, displacement at the scene's probes, forces of the supports."""
+        """Return tables of the cost, of the probes' displacements and of the supports' forces."""
         u = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
         largest = float(np.max(np.linalg.norm(u, axis=1)))
-        cost = (self.unknowns, self.iterations, self.setup_seconds, self.solve_seconds, largest)
-        moved = [(name, *u) for name, u in self.probes.items()]
-        held = [(name, *f) for name, f in summary.without_rounding(self.reactions).items()]
-        return (
-            Table.listed("Cost and largest displacement", COST, [cost], "solution"),
-            *([Table.listed("Displacement of the mid-surface", MOVED, moved, "probes")] if moved else []),
-            *([Table.listed("Force of each support on the sheet", HELD, held, "reactions")] if held else []),
+        cost = CostRow(self.unknowns, self.iterations, self.setup_seconds, self.solve_seconds, largest)
+        forces = summary.without_rounding(self.reactions)
+        tables = (
+            Table.of(CostRow, [cost], "Cost and largest displacement", "solution"),
+            Table.of(
+                ProbeRow,
+                [ProbeRow(name, *u) for name, u in self.probes.items()],
+                *("Displacement of the mid-surface", "probes"),
+            ),
+            Table.of(
+                ReactionRow,
+                [ReactionRow(name, *force) for name, force in forces.items()],
+                *("Force of each support on the sheet", "reactions"),
+            ),
         )
+        return tuple(table for table in tables if table.rows)
 
     def figures(self) -> tuple[Picture, ...]:
-        """Heights over the plan."""
+        """Return the figure of heights over the plan."""
         compose = "sheetbench.answers.solution_figure:compose"
         return (Picture("solution", compose, (self,), formats=RASTER),)
 

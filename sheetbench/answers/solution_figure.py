@@ -17,7 +17,7 @@ CELLS = 64  # along each side
 
 
 def compose(solution: Solution, style: FigureStyle = PLAIN) -> Figure:
-    """uz in mm over the plan, with the probes. Raises NoPicture for what is not finite."""
+    """Draw uz in mm over the plan, with the probes. Raises NoPicture if a displacement is not finite."""
     points, heights = solution.mesh.points, 1e3 * solution.mesh.point_data["displacement"][:, 2]
     if not np.isfinite(heights).all():
         raise NoPicture("a displacement is not a finite number")

@@ -1,4 +1,4 @@
-"""The dress of plots for papers: fonts, neutral colours, text from scenes, and files in every format."""
+"""Style of plots for papers: fonts, neutral colours, text from scenes, and files in every format."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 
 from sheetbench.files import whole
 
-DPI = 300  # of pictures as PNG, and of what is rendered inside those as PDF or SVG
-PIXELS = 1080  # across a sheet that is rendered: half as many again as a third of the page has at DPI
+DPI = 300  # of pictures as PNG, and of rendered parts in PDF and SVG
+PIXELS = 1080  # across a rendered sheet: 1.5 times those of a third of the page at DPI
 MOST = 12  # probes with a panel or a line of their own
 DARK, GREY = "#222222", "#8a8a8a"
 # Okabe and Ito's colours, which everyone can distinguish.
@@ -33,7 +33,7 @@ STYLE: Any = {
     "xtick.color": DARK,
     "ytick.color": DARK,
     "pdf.fonttype": 42,  # TrueType, embedded: journals refuse Type 3
-    "svg.fonttype": "path",  # text as curves: the same on machines that have not this font
+    "svg.fonttype": "path",  # text as curves, for machines without this font
     "svg.hashsalt": "sheetbench",
 }
 DESCRIPTION = {".pdf": "Subject", ".svg": "Description", ".png": "Description"}
@@ -43,8 +43,7 @@ UNDATED: Any = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": 
 def save(figure: Figure, paths: Iterable[Path], description: str = "") -> None:
     """Write a figure to every path, in the format of its suffix (.png, .pdf, .svg), whole or not at all.
 
-    description: kept in the file's metadata. The same figure is the same bytes: no file says when it was
-    made.
+    description: kept in the file's metadata. Files of equal figures have equal bytes: they contain no date.
     """
     for path in paths:
         words = {DESCRIPTION[path.suffix]: description} if description else {}
@@ -53,9 +52,9 @@ def save(figure: Figure, paths: Iterable[Path], description: str = "") -> None:
 
 
 def plain(text: str, width: int | None = None, longest: int | None = None) -> str:
-    """Text of a scene for a figure: no mathematics in it, control characters out.
+    """Return text of a scene for a figure, without control characters and mathematics.
 
-    width: break lines there; longest: cut there, with an ellipsis.
+    width: of lines, which are broken; longest: of the text, which is cut with an ellipsis.
     """
     shown = " ".join("".join(c if c.isprintable() else " " for c in text).split())
     if longest is not None and len(shown) > longest:

@@ -1,10 +1,10 @@
 """Tables: columns with units, rows of plain values, and the ways to write them.
 
 A row is a dataclass whose fields carry their columns, `error: Annotated[float | None, PERCENT(".3g")]`, and
-`Table.of` makes the table of such rows: CSV, Markdown, pandas and a terminal's lines follow from it.
-Values are kept in SI units. CSV has them as they are, with the unit in the header; Markdown and the terminal
-show them scaled and rounded (a displacement in mm, a time in ms). Negative numbers have a minus sign
-(U+2212) there, in CSV a hyphen, as other programs read it.
+`Table.of` makes a table of rows: CSV, Markdown, pandas and a terminal's lines follow from it. Values are kept
+in SI units. CSV has them unchanged, with the unit in the header; Markdown and the terminal show them scaled
+and rounded (a displacement in mm, a time in ms). Negative numbers have a minus sign (U+2212) there, in CSV a
+hyphen for other programs.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ if TYPE_CHECKING:
 
 
 class TableUnit(NamedTuple):
-    """A unit in SI, as people read it, and the factor between. Called it is a column of numbers in it; as a
-    cell it is the unit of its row's numbers."""
+    """An SI unit, the unit of display, and the factor between them. A call makes a column of numbers in the
+    unit; a cell with it holds the unit of its row's numbers."""
 
     si: str
     shown: str
     scale: float = 1.0
 
     def __call__(self, form: str, name: str = "", **options: Any) -> Column:
-        """Return a column of numbers in this unit; without a name it has that of its field."""
+        """Return a column of numbers in this unit; its name is the field's unless given."""
         return Column(name, self.si, self.shown, self.scale, form, **options)
 
 
@@ -48,16 +48,16 @@ _SHOWN = {unit.si: unit for unit in (MEGAPASCALS, MILLIMETRES, MILLISECONDS)}
 
 
 def unit(si: str) -> TableUnit:
-    """Return a unit as a cell, shown as everywhere else: pressures in MPa, lengths in mm, times in ms."""
+    """Return a unit as a cell in its unit of display: pressures in MPa, lengths in mm, times in ms."""
     return _SHOWN.get(si, TableUnit(si, si))
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column's name, the SI unit of its values, and how to show them: unit, scale and format.
+    """A column's name, the SI unit of its values, and their unit, scale and format of display.
 
-    Numbers have a format; prose may be broken over lines. A detail is left out on terminals.
-    words: for true and false; none: for an empty list; shown_name: if not that of the CSV file.
+    Numbers have a format; prose may be broken over lines. A detail is left out on terminals. words: for true
+    and false; none: for an empty list; shown_name: name of display if it differs from the CSV file's.
     """
 
     name: str = ""
@@ -72,8 +72,7 @@ class Column:
     shown_name: str = ""
 
     def of(self, value: Any) -> Any:
-        """Return a value of a row as a cell: true and false in words, a grid as 9×9×2, texts with commas
-        between."""
+        """Return a row's value as a cell: true and false in words, a grid as 9×9×2, texts with commas."""
         if isinstance(value, bool | np.bool_):
             return self.words[not value]
         if isinstance(value, list | tuple) and not isinstance(value, TableUnit):
@@ -83,22 +82,22 @@ class Column:
 
     @property
     def numeric(self) -> bool:
-        """Whether the values are numbers, to be set flush right."""
+        """Return whether the values are numbers, to be set flush right."""
         return bool(self.form)
 
     def heading(self, shown: bool) -> tuple[str, str]:
-        """Return the name and its unit in brackets, "" without one; shown: those that people read."""
+        """Return the name, and the unit in brackets, "" without one; shown: for display."""
         name, unit = (self.shown_name or self.name, self.shown_unit) if shown else (self.name, self.unit)
         return name, f"[{unit}]" if unit else ""
 
     def header(self, shown: bool) -> str:
-        """Return both in a line."""
+        """Return name and unit in a line; shown: for display."""
         return " ".join(self.heading(shown)).rstrip()
 
     def show(self, value: Any, scale: float = 1.0) -> str:
-        """Return a value as people read it; a dash where there is none.
+        """Return a value for display, a dash for None.
 
-        scale: that of the row's own unit, for columns that have none themselves.
+        scale: scale of the row's own unit, for columns without a unit.
         """
         if value is None or value != value:
             return "–"
@@ -115,11 +114,11 @@ class Column:
 def _declared(kind: type) -> dict[str, Column]:
     """Return the columns of a row's class by field and property."""
     hints = get_type_hints(kind, include_extras=True)
-    found = {field.name: hints[field.name] for field in dataclass_fields(kind)}
+    declared = {field.name: hints[field.name] for field in dataclass_fields(kind)}
     for name, value in vars(kind).items():
         if isinstance(value, property):
-            found[name] = get_type_hints(value.fget, include_extras=True)["return"]
-    return {name: _column(name, hint) for name, hint in found.items()}
+            declared[name] = get_type_hints(value.fget, include_extras=True)["return"]
+    return {name: _column(name, hint) for name, hint in declared.items()}
 
 
 def _column(name: str, hint: Any) -> Column:
@@ -129,8 +128,7 @@ def _column(name: str, hint: Any) -> Column:
 
 
 def number(value: float, form: str = "g") -> str:
-    """Return a number as people read it: with a minus sign, not a hyphen; a zero without zeros behind it;
-    with the zeros of an exponent below 6."""
+    """Return a number for display: a minus sign, not a hyphen; no zeros behind a zero; exponents from 6."""
     shown = format(value, form if value else form.removeprefix("#"))
     if form.endswith("g") and "e+0" in shown and abs(value) < 1e6:
         shown = f"{float(shown):.0f}"
@@ -138,22 +136,22 @@ def number(value: float, form: str = "g") -> str:
 
 
 def quantity(value: float, si: str, form: str = ".4g") -> str:
-    """Return a value in an SI unit as people read it, in the unit of `unit`."""
+    """Return a value in an SI unit for display, with its unit of display."""
     shown = unit(si)
     return f"{number(value * shown.scale, form)} {shown.shown}".rstrip()
 
 
 def percent(fraction: float, form: str = ".2g") -> str:
-    """Return a fraction in per cent, as people read it."""
+    """Return a fraction for display in per cent."""
     return f"{number(100.0 * fraction, form)} %"
 
 
 @dataclass(frozen=True, repr=False)
 class Table:
-    """A caption, columns, and rows of as many values [SI] as there are columns.
+    """A caption, columns, and rows with a value [SI] for each column.
 
-    name: of its CSV file. grouped: rows that share the first value stand together under it on a terminal.
-    text: notes on it, in Markdown.
+    name: name of the CSV file. grouped: a terminal shows the common first value of following rows once.
+    text: notes on the table, in Markdown.
     """
 
     caption: str
@@ -168,25 +166,24 @@ class Table:
         cls, kind: type, rows: Iterable[Any], caption: str, name: str = "", *, fields: Sequence[str] = (),
         details: Sequence[str] = (), grouped: bool = False, text: str = "",
     ) -> Table:  # fmt: skip
-        """Return the table of rows, dataclasses of one kind: a column a field, or those in `fields`,
-        properties too.
+        """Return the table of rows, dataclasses of one class, with a column for each field.
 
-        A field's column is in its annotation; without one it holds words under the field's name. A field that
-        holds a mapping is a column a key: a name, or a Column itself. details: fields for the files
-        alone.
+        fields: the fields and properties shown, in their order, if not all fields. A field's column is in its
+        annotation; without one it holds words under the field's name. A field that holds a mapping has a
+        column for each key: a name, or a Column. details: fields for the files alone.
         """
         rows, declared = list(rows), _declared(kind)
         columns: list[Column] = []
         cells: list[list[Any]] = [[] for _ in rows]
         for field in fields or (one.name for one in dataclass_fields(kind)):
-            declared_one = replace(declared[field], detail=declared[field].detail or field in details)
-            own, values = [declared_one], [(getattr(row, field),) for row in rows]
+            column = replace(declared[field], detail=declared[field].detail or field in details)
+            of_field, values = [column], [(getattr(row, field),) for row in rows]
             if values and isinstance(values[0][0], Mapping):
                 keys, values = list(values[0][0]), [tuple(value.values()) for (value,) in values]
-                own = [k if isinstance(k, Column) else replace(own[0], name=str(k)) for k in keys]
-            columns += own
+                of_field = [k if isinstance(k, Column) else replace(column, name=str(k)) for k in keys]
+            columns += of_field
             for row, parts in zip(cells, values, strict=True):
-                row += [column.of(part) for column, part in zip(own, parts, strict=True)]
+                row += [c.of(part) for c, part in zip(of_field, parts, strict=True)]
         return cls(caption, tuple(columns), tuple(map(tuple, cells)), name, grouped, text)
 
     @classmethod
@@ -194,13 +191,13 @@ class Table:
         cls, caption: str, columns: Iterable[Any], rows: Iterable[Iterable[Any]], name: str = "",
         *, grouped: bool = False, text: str = "",
     ) -> Table:  # fmt: skip
-        """Return the table of rows of as many values as there are columns, or names of those of words."""
+        """Return the table of rows of values in the order of the columns; a text is a column of words."""
         own = tuple(Column(one) if isinstance(one, str) else one for one in columns)
         cells = (tuple(c.of(value) for c, value in zip(own, row, strict=True)) for row in rows)
         return cls(caption, own, tuple(cells), name, grouped, text)
 
     def to_csv(self) -> str:
-        """Return all digits in SI units; an empty cell where there is no value."""
+        """Return the table as CSV: all digits in SI units, empty cells for None."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(csv_cell(column.header(shown=False)) for column in self.columns)
@@ -209,8 +206,8 @@ class Table:
         return text.getvalue()
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Return all values in SI units as a data frame, with the unit in a column's name. Raises BadInput
-        where pandas is not installed."""
+        """Return all values in SI units as a data frame, with the unit in a column's name. Raises BadInput if
+        pandas is not installed."""
         try:
             import pandas
         except ModuleNotFoundError:
@@ -232,14 +229,14 @@ class Table:
         return f"{markdown(self.caption)}\n\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
     def words(self) -> dict[str, Any]:
-        """Return what the CSV file does not say, ready for JSON; where there is none, the rows too."""
-        known = {"name": self.name, "caption": self.caption, "text": self.text, "grouped": self.grouped}
+        """Return caption, text and columns, ready for JSON, with the rows if the table has no CSV file."""
+        words = {"name": self.name, "caption": self.caption, "text": self.text, "grouped": self.grouped}
         units = [any(isinstance(row[i], TableUnit) for row in self.rows) for i in range(len(self.columns))]
-        known |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
-        return known if self.name else {**known, "rows": [list(row) for row in self.rows]}
+        words |= {"columns": [{**asdict(c), "units": u} for c, u in zip(self.columns, units, strict=True)]}
+        return words if self.name else {**words, "rows": [list(row) for row in self.rows]}
 
     def shown_rows(self) -> list[list[str]]:
-        """Return the rows as people read them."""
+        """Return the rows for display."""
         shown = []
         for row in self.rows:
             scale = next((value.scale for value in row if isinstance(value, TableUnit)), 1.0)

@@ -1,1 +1,1 @@
-"""Linear algebra that both solvers use: equations, no mechanics."""
+"""Linear algebra and path tracing for both solvers: equations, no mechanics."""

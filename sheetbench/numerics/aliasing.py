@@ -1,9 +1,10 @@
-"""Loads and stores that name what they reach, so that compilers vectorise loops over several arrays.
+"""Loads and stores with alias scopes, so that compilers vectorise loops over several arrays.
 
-A compiler that cannot tell whether a store changes what the next spring loads takes one spring at a time, or
-asks at run time, and gives up beyond some eight questions. What `load` and `store` reach by one number never
-overlaps what they reach by another: they carry the scopes of LLVM's alias analysis that say so. Within one
-number the compiler finds out as ever. Source: "noalias and alias.scope Metadata", LLVM Language Reference.
+If a store may change the operands of the next iteration, a compiler executes one iteration at a time, or adds
+checks at run time, up to some eight of them. `load` and `store` take a number for their memory: memory of
+different numbers never overlaps, which LLVM's alias analysis reads from the scopes. For accesses of one
+number the compiler uses its ordinary analysis. Source: "noalias and alias.scope Metadata", LLVM Language
+Reference.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from numba.extending import intrinsic
 
 from sheetbench.numerics.options import inner
 
-KINDS = 6  # of memory, 0 to 5: what an access of one kind reaches no access of another does
+KINDS = 6  # of memory, 0 to 5: memory of different kinds does not overlap
 
 
 def _access(kind: Any, context: Any, builder: Any, signature: Any, args: Any) -> tuple[Any, Any]:
-    """A function from places to pointers, and one that marks an instruction with the scopes of an access."""
+    """Return a function from indices to pointers, and a function that adds an access's scopes."""
     array = context.make_array(signature.args[1])(context, builder, args[1])
     module = builder.module
     domain = module.add_metadata(["sheetbench.numerics.aliasing"])
@@ -38,7 +39,7 @@ def _access(kind: Any, context: Any, builder: Any, signature: Any, args: Any) ->
 
 
 def _load(_: Any, kind: Any, array: Any, i: Any) -> Any:
-    """array[i] of memory of this kind."""
+    """Generate array[i] from memory of a kind."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         pointer, marked = _access(kind, context, builder, signature, args)
@@ -48,7 +49,7 @@ def _load(_: Any, kind: Any, array: Any, i: Any) -> Any:
 
 
 def _store(_: Any, kind: Any, array: Any, i: Any, value: Any) -> Any:
-    """array[i] = value in memory of this kind."""
+    """Generate array[i] = value in memory of a kind."""
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         pointer, marked = _access(kind, context, builder, signature, args)
@@ -58,24 +59,24 @@ def _store(_: Any, kind: Any, array: Any, i: Any, value: Any) -> Any:
     return types.none(kind, array, types.uint64, array.dtype), generate
 
 
-def _load_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, count: Any) -> Any:
-    """array[i], array[i + apart], …, so many, flat, as a tuple, of memory of this kind."""
+def _load_each(_: Any, kind: Any, array: Any, i: Any, stride: Any, count: Any) -> Any:
+    """Generate the tuple of `count` flat entries array[i], array[i + stride], … from memory of a kind."""
     if array.layout != "C":
         raise TypingError("the array has gaps")
-    found = types.UniTuple(array.dtype, count.literal_value)
+    loaded = types.UniTuple(array.dtype, count.literal_value)
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         (pointer, marked), place, values = _access(kind, context, builder, signature, args), args[2], []
-        for _ in range(found.count):
+        for _ in range(loaded.count):
             values.append(marked(builder.load(pointer(place))))
             place = builder.add(place, args[3])
-        return context.make_tuple(builder, found, values)
+        return context.make_tuple(builder, loaded, values)
 
-    return found(kind, array, types.uint64, types.uint64, count), generate
+    return loaded(kind, array, types.uint64, types.uint64, count), generate
 
 
-def _store_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, values: Any) -> Any:
-    """array[i], array[i + apart], … = the values of a tuple, in memory of this kind."""
+def _store_each(_: Any, kind: Any, array: Any, i: Any, stride: Any, values: Any) -> Any:
+    """Generate array[i], array[i + stride], … = the values of a tuple, in memory of a kind."""
     given = types.UniTuple(array.dtype, len(values))
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -90,8 +91,8 @@ def _store_each(_: Any, kind: Any, array: Any, i: Any, apart: Any, values: Any) 
 
 @inner()
 def empty(shape: Any, dtype: Any = np.float64) -> np.ndarray:
-    """Return a new array; of one compiled function for all shapes of so many axes, where numba compiles
-    NumPy's for each kind of its arguments."""
+    """Return a new array, by one compiled function for each number of axes. numba would compile NumPy's for
+    each kind of its arguments."""
     return np.empty(shape, dtype)
 
 
@@ -107,20 +108,20 @@ load_each: Any = constant(_load_each)
 store: Any = constant(_store)
 store_each: Any = constant(_store_each)
 
-if getattr(config, "DISABLE_JIT", False):  # the same in Python, where kernels are not compiled
+if getattr(config, "DISABLE_JIT", False):  # in Python, if kernels are not compiled
 
     def load(kind: int, array: np.ndarray, i: int) -> Any:
         return load_each(kind, array, i, 0, 1)[0]
 
-    def load_each(kind: int, array: np.ndarray, i: int, apart: int, count: int) -> Any:
+    def load_each(kind: int, array: np.ndarray, i: int, stride: int, count: int) -> Any:
         flat = array.reshape(-1)
-        return tuple([flat[int(i) + n * int(apart)] for n in range(count)])
+        return tuple([flat[int(i) + n * int(stride)] for n in range(count)])
 
     def store(kind: int, array: np.ndarray, i: int, value: Any) -> None:
         store_each(kind, array, i, 0, (value,))
 
-    def store_each(kind: int, array: np.ndarray, i: int, apart: int, values: Any) -> None:
+    def store_each(kind: int, array: np.ndarray, i: int, stride: int, values: Any) -> None:
         flat: np.ndarray = array.view()  # never a copy, in which a store would be lost
         flat.shape = (array.size,)
         for n, value in enumerate(values):
-            flat[int(i) + n * int(apart)] = value
+            flat[int(i) + n * int(stride)] = value

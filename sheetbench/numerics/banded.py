@@ -2,9 +2,9 @@
 
 Storage: row j holds column j of the lower triangle from the diagonal on, band[j, i − j] = A_ij, then zeros.
 PANEL columns are eliminated together and the rest is updated two columns at a time: a rank-PANEL update whose
-operands stay in registers. Rows end with zeros, so that loops run over whole vectors, and what cannot overlap
-is said (`numerics.aliasing`). LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, which is
-what small lattices have.
+operands stay in registers. Rows end with zeros, so that loops run over whole vectors, and accesses have alias
+scopes (`numerics.aliasing`). LAPACK's dpbtrf eliminates a column at a time at bandwidths below 65, as in
+small lattices.
 """
 
 from __future__ import annotations
@@ -19,17 +19,15 @@ from sheetbench.numerics.aliasing import empty, load, load_each, store, zeros
 from sheetbench.numerics.options import REORDERED, inner, njit
 from sheetbench.numerics.panels import PANEL, dot, eliminate, solve_backward, solve_forward, triangle
 
-LANES, ONE = np.uint64(8), np.uint64(1)  # that loops run over at once; index arithmetic is unsigned
-TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is looked at: beyond, bands do not pay
+LANES, ONE = np.uint64(8), np.uint64(1)  # entries of a vector; index arithmetic is unsigned
+TRY_OTHER_ORDER = 20_000  # unknowns up to which a second order is tried: beyond, bands are too slow
 BACKWARD_ERROR = 1e-10  # ‖A x − b‖ relative to ‖A‖‖x‖ + ‖b‖ beyond which the matrix counts as singular
 
 
 class Band(NamedTuple):
-    """Where the entries of a matrix over 3×3 blocks go.
-
-    order: (n,) the unknown at each place; width: entries below the diagonal; source, target, weight: entry of
-    the blocks, entry of the storage where it is added, both flat, and its factor (none where all are one).
-    """
+    """Map from the entries of a matrix in 3×3 blocks to band storage. order: (n,) the unknown at each place.
+    width: number of entries below the diagonal. source, target, weight: flat entry of the blocks, flat entry
+    of the storage to which it is added, and its factor (empty if all are one)."""
 
     order: np.ndarray
     width: int
@@ -39,8 +37,8 @@ class Band(NamedTuple):
 
 
 def ordered(rows: np.ndarray, columns: np.ndarray, n: int) -> tuple[np.ndarray, int]:
-    """The order (n,) of an n × n matrix with entries (row, column), both triangles, and its bandwidth: as the
-    unknowns are numbered, along the rows of the grid, or reverse Cuthill–McKee where that is narrower."""
+    """Return the order (n,) of an n × n matrix with entries (row, column), both triangles, and its bandwidth.
+    The order is the unknowns' own, along the rows of the grid, or reverse Cuthill–McKee if it is narrower."""
     order = np.arange(n)
     width = int(np.abs(rows - columns).max(initial=0))
     if not 0 < n <= TRY_OTHER_ORDER:
@@ -61,7 +59,7 @@ def band_of(
     order: np.ndarray,
     width: int,
 ) -> Band:
-    """Where the entries (row, column) go in this order."""
+    """Return the map of entries (row, column) to the band storage of an order."""
     n = len(order)
     place = np.empty(n, int)
     place[order] = np.arange(n)
@@ -76,13 +74,13 @@ def band_of(
 
 @njit
 def padded_length(n: int) -> int:
-    """Rows of the storage: whole panels, and two that the loops run over into."""
+    """Return the number of rows of the storage: whole panels, and two rows of padding."""
     return -(-n // PANEL) * PANEL + 2
 
 
 @njit
 def row_length(width: int) -> int:
-    """Columns of the storage: those of the band, and zeros that the loops run over into."""
+    """Return the number of columns of the storage: the band's, and zeros as padding."""
     return width + 1 + PANEL + 8
 
 
@@ -94,13 +92,13 @@ def padded_vector(n: int, width: int) -> np.ndarray:
 
 @inner()
 def _lanes(count: int) -> Any:
-    """A number of steps up to that of whole vectors."""
+    """Round a number of entries up to whole vectors."""
     return (np.uint64(count) + LANES - ONE) // LANES * LANES
 
 
 @njit
 def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
-    """The matrix of blocks (b, 3, 3) in band storage: whole panels, and zeros where the loops run over."""
+    """Return the matrix of blocks (b, 3, 3) in band storage, padded with zeros."""
     out = zeros((padded_length(len(band.order)), row_length(band.width)))
     entries, places = blocks.ravel(), out.ravel()
     if not len(band.weight):
@@ -113,8 +111,7 @@ def stored(blocks: np.ndarray, band: Band) -> np.ndarray:
 
 @njit(fastmath=REORDERED)
 def factor(band: np.ndarray, n: int, width: int) -> bool:
-    """Turn the matrix into its Cholesky factor in place, with its diagonal inverted; False where it is not
-    positive definite."""
+    """Turn a matrix into its Cholesky factor in place, with an inverted diagonal; False if not definite."""
     for j in range(n, len(band)):
         band[j, 0] = 1.0
     flat, stride = band.ravel(), np.uint64(band.shape[1])
@@ -149,7 +146,7 @@ def factor(band: np.ndarray, n: int, width: int) -> bool:
 
 
 def factored(blocks: np.ndarray, band: Band) -> tuple[np.ndarray, bool]:
-    """Cholesky factors of the matrix of blocks (b, 3, 3), and whether there are such."""
+    """Return the Cholesky factors of the matrix of blocks (b, 3, 3), and whether it is positive definite."""
     factors = stored(blocks, band)
     return factors, factor(factors, len(band.order), band.width)
 
@@ -166,7 +163,7 @@ def substitute(factors: np.ndarray, n: int, width: int, x: np.ndarray) -> None:
 
 @njit
 def solve_unrefined(factors: np.ndarray, width: int, order: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """x with A x = b as the factors have it."""
+    """Solve A x = b with the factors, without refinement."""
     x = padded_vector(len(order), width)
     for j in range(len(order)):
         x[j] = b[order[j]]

@@ -1,6 +1,6 @@
 """Cache of results by the content of array arguments.
 
-Meshes, patterns and orders of elimination are equal from one solution to the next, whatever the material and
+Meshes, patterns and orders of elimination do not change from one solution to the next with the material and
 the loads. Arrays of a cached result are read-only.
 """
 
@@ -13,27 +13,27 @@ from typing import ParamSpec, TypeVar
 
 import numpy as np
 
-Given = ParamSpec("Given")
-Found = TypeVar("Found")
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
 
 
-def frozen(shared: Found) -> Found:
+def frozen(result: Result) -> Result:
     """Make an array, or the arrays in nested tuples, read-only; return it."""
-    if isinstance(shared, np.ndarray):
-        shared.flags.writeable = False
-    elif isinstance(shared, tuple):
-        for part in shared:
+    if isinstance(result, np.ndarray):
+        result.flags.writeable = False
+    elif isinstance(result, tuple):
+        for part in result:
             frozen(part)
-    return shared
+    return result
 
 
-def _bytes(*given: object, **_: object) -> float:
-    return sum(one.nbytes for one in given if isinstance(one, np.ndarray))
+def _bytes(*arguments: object, **_: object) -> float:
+    return sum(argument.nbytes for argument in arguments if isinstance(argument, np.ndarray))
 
 
 def cached(
     last: int, most: int, size: Callable[..., float] = _bytes
-) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
+) -> Callable[[Callable[Arguments, Result]], Callable[Arguments, Result]]:
     """Decorate a function of arrays and hashable arguments with a cache of its `last` results, read-only.
 
     Results for arguments whose `size`, in bytes unless given, exceeds `most` are not cached. The function's
@@ -44,26 +44,26 @@ def cached(
     True
     """
 
-    def decorate(function: Callable[Given, Found]) -> Callable[Given, Found]:
-        found: OrderedDict[object, Found] = OrderedDict()
+    def decorate(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+        results: OrderedDict[object, Result] = OrderedDict()
 
         @wraps(function)
-        def remembering(*given: Given.args, **named: Given.kwargs) -> Found:
-            if size(*given, **named) > most:
-                return frozen(function(*given, **named))
-            key = (tuple(map(_content, given)), tuple((name, _content(one)) for name, one in named.items()))
-            out = found.get(key)
-            if out is None:
-                out = found[key] = frozen(function(*given, **named))
-                while len(found) > last:
-                    found.popitem(last=False)
-            return out
+        def remembering(*values: Arguments.args, **named: Arguments.kwargs) -> Result:
+            if size(*values, **named) > most:
+                return frozen(function(*values, **named))
+            key = (tuple(map(_content, values)), tuple((name, _content(v)) for name, v in named.items()))
+            result = results.get(key)
+            if result is None:
+                result = results[key] = frozen(function(*values, **named))
+                while len(results) > last:
+                    results.popitem(last=False)
+            return result
 
-        remembering.forget = found.clear  # type: ignore[attr-defined]
+        remembering.forget = results.clear  # type: ignore[attr-defined]
         return remembering
 
     return decorate
 
 
-def _content(one: object) -> object:
-    return (one.shape, one.dtype.str, one.tobytes()) if isinstance(one, np.ndarray) else one
+def _content(value: object) -> object:
+    return (value.shape, value.dtype.str, value.tobytes()) if isinstance(value, np.ndarray) else value

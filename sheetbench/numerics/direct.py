@@ -1,9 +1,9 @@
-"""Sparse direct solution of A x = b: analyse a pattern once, factorise many times, know the inertia.
+"""Sparse direct solution of A x = b: one analysis of a pattern, many factorisations, with the inertia.
 
-A symmetric matrix has factors L S Lᵀ by fronts where those of its pattern are known (`multifrontal`). What
-has none by fronts, as may be far from definite, goes to rslab's L D Lᵀ with Bunch–Kaufman pivots. Unsymmetric
-ones are solved with the factors of their symmetric part where that is definite and close, else by L U of
-SciPy. Solutions are refined, their residuals checked.
+A symmetric matrix has factors L S Lᵀ if the fronts of its pattern are known (`multifrontal`). If they fail,
+for instance far from definiteness, rslab's L D Lᵀ with Bunch–Kaufman pivots is used. Unsymmetric matrices are
+solved with the factors of their symmetric part if it is definite and close, else by SciPy's L U. Solutions
+are refined and their residuals checked.
 """
 
 from __future__ import annotations
@@ -25,27 +25,30 @@ from sheetbench.numerics.multifrontal import signed_factors
 from sheetbench.numerics.saddle_point import ROUNDED, minimal_residual
 from sheetbench.numerics.stability import nearest_to_zero, negative_real, odd_below_zero
 
-Matrix = Any  # by rows or, where it is symmetric or so by pattern, by columns
+Matrix = Any  # by rows or, if it is symmetric at least by pattern, by columns
 Solve = Callable[[np.ndarray], np.ndarray]
 Count = Callable[[], None]
 
 # backward error of a positive definite matrix's factors, which need no pivots (Higham 2002, 10.1)
 CHOLESKY = 1e-14
-SOLVED = 1e-14  # of a Newton step that is not refined: the next one is its refinement
+SOLVED = 1e-14  # backward error of a Newton step without refinement: the next step refines it
 ITERATION_ACCURACY = 1e-4  # residual over the right-hand side: Newton's corrections gain few digits more
 ITERATIONS = 20  # each costs a solution with the factors
 
 
 class SingularMatrixError(ArithmeticError):
-    """The matrix has no usable factors, or they do not solve the system."""
+    """A matrix without usable factors, or with factors that do not solve the system."""
 
 
 @dataclass(eq=False)
 class Factor:
-    """One factorisation. given: the matrix, or what makes it; solve_unrefined: x with A x = b as the factors
-    have it, neither refined nor checked; negative, zero: how many eigenvalues of a symmetric matrix are below
-    zero and zero, −1 of an unsymmetric one; backward_error: what that of unrefined solutions is known to be
-    below; more: called once a further factorisation that is made of the matrix."""
+    """One factorisation.
+
+    given: the matrix, or a function that makes it. solve_unrefined: solves A x = b with the factors, without
+    refinement or check. negative, zero: numbers of negative and zero eigenvalues of a symmetric matrix, −1
+    for an unsymmetric one. backward_error: bound for unrefined solutions. more: called for each further
+    factorisation of the matrix.
+    """
 
     given: Matrix | Callable[[], Matrix]
     solve_unrefined: Solve
@@ -56,23 +59,24 @@ class Factor:
 
     @cached_property
     def matrix(self) -> Matrix:
-        """The matrix, both triangles."""
+        """Return the matrix, both triangles."""
         return self.given() if callable(self.given) else self.given
 
     def negative_real(self) -> int | None:
-        """Real eigenvalues below zero of an unsymmetric matrix (`stability`), among those nearest to zero;
-        None if they are not found, or the determinant's sign tells that there are others."""
-        found = nearest_to_zero(self.matrix, self.solve_unrefined)
-        if found is None:
+        """Return the number of negative real eigenvalues of an unsymmetric matrix (`stability`). It counts
+        the eigenvalues nearest to zero. Return None if they do not converge, or the determinant's sign shows
+        that there are others."""
+        values = nearest_to_zero(self.matrix, self.solve_unrefined)
+        if values is None:
             return None
-        count = negative_real(found)
-        if len(found) == self.matrix.shape[0]:
+        count = negative_real(values)
+        if len(values) == self.matrix.shape[0]:
             return count
         self.more()
         return count if odd_below_zero(self.matrix) == bool(count % 2) else None
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """x (n,) with A x = b, corrected (`saddle_point`) unless its backward error is known to be `enough`.
+        """Solve A x = b for x (n,), with corrections (`saddle_point`) unless its backward error is `enough`.
         Raises SingularMatrixError if the residual stays large."""
         if self.backward_error <= enough:
             x = self.solve_unrefined(b)
@@ -83,39 +87,40 @@ class Factor:
 
 @dataclass(eq=False)
 class SymmetricPartFactor(Factor):
-    """Factors of an unsymmetric matrix's symmetric part, which is positive definite: no eigenvalue has a
-    negative real part. whole: makes those of the matrix, where corrected solutions are not good enough."""
+    """Factors of the symmetric part, positive definite, of an unsymmetric matrix. No eigenvalue of the matrix
+    has a negative real part. whole: makes the factors of the matrix itself, if corrected solutions are too
+    inaccurate."""
 
     whole: Callable[[], Factor] = field(kw_only=True)
     _whole: Factor | None = field(default=None, init=False)
 
     def negative_real(self) -> int:
-        """Zero."""
+        """Return 0: no eigenvalue has a negative real part."""
         return 0
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """Solve A x = b for x (n,), corrected. Raises SingularMatrixError if the residual stays large."""
         if self._whole is None:
-            x, miss = minimal_residual(self.matrix, self.solve_unrefined, b, max(enough, ROUNDED))
-            if miss <= BACKWARD_ERROR:
+            x, error = minimal_residual(self.matrix, self.solve_unrefined, b, max(enough, ROUNDED))
+            if error <= BACKWARD_ERROR:
                 return x
             self.more()
             self._whole = self.whole()
         return self._whole.solve(b, enough)
 
 
-def checked(x: np.ndarray, miss: float) -> np.ndarray:
-    """x, unless its residual relative to the matrix and the vectors is large."""
-    if not miss <= BACKWARD_ERROR:  # also catches nan
-        raise SingularMatrixError(f"residual {miss:.1e} after refinement: singular to working precision")
+def checked(x: np.ndarray, error: float) -> np.ndarray:
+    """Return x. Raises SingularMatrixError if its backward error is large."""
+    if not error <= BACKWARD_ERROR:  # also catches nan
+        raise SingularMatrixError(f"residual {error:.1e} after refinement: singular to working precision")
     return x
 
 
 class DirectSolver:
-    """Factorises matrices of one sparsity pattern, with sorted indices; the analysis is done once.
+    """Factorisation of matrices of one sparsity pattern, with sorted indices and one analysis.
 
-    symmetric: the matrices are symmetric (both triangles stored), and the factors tell the inertia; fronts:
-    gives those of the pattern, where they are known.
+    symmetric: the matrices are symmetric (both triangles stored), and factors have the inertia. fronts: makes
+    the fronts of the pattern, None if they are not known.
     """
 
     def __init__(self, symmetric: bool = True, fronts: Callable[[], Fronts] | None = None):
@@ -124,15 +129,15 @@ class DirectSolver:
         self._transposed: np.ndarray | None = None
 
     def factor(self, matrix: Matrix, more: Count = lambda: None) -> Factor:
-        """Factors of a matrix (n, n) that has the pattern of the first one given; more: called once a further
-        factorisation that these, or what is asked of them later, take.
+        """Return the factors of a matrix (n, n) with the pattern of the first one.
 
-        Raises SingularMatrixError on a zero pivot or an entry that is not finite.
+        more: called for each further factorisation, now or in a later solution. Raises SingularMatrixError on
+        a zero pivot or an entry that is not finite.
         """
         if self._fronts is not None:
             data = matrix.data if self.symmetric else self._symmetric_part(matrix)
-            if found := signed_factors(data, self._fronts()):
-                solve, negative = found
+            if signed := signed_factors(data, self._fronts()):
+                solve, negative = signed
                 if self.symmetric:
                     error = np.inf if negative else CHOLESKY
                     return Factor(matrix, solve, negative, backward_error=error)
@@ -140,13 +145,13 @@ class DirectSolver:
                     whole = partial(self._by_library, matrix, more)
                     return SymmetricPartFactor(matrix, solve, more=more, whole=whole)
                 more()
-        return self._by_library(matrix, more)  # whose pivots may do
+        return self._by_library(matrix, more)  # with pivoting
 
     def iterated(self, matrix: Matrix, near: Factor, rows: np.ndarray) -> None:
-        """None: factors of its own cost little beside a matrix of elements."""
+        """Return None: new factors cost little compared with the assembly of elements."""
 
     def _symmetric_part(self, matrix: Matrix) -> np.ndarray:
-        """The data of (A + Aᵀ)/2, whose pattern is that of A."""
+        """Return the data of (A + Aᵀ)/2, which has the pattern of A."""
         if self._transposed is None:
             places = sp.csc_array((np.arange(len(matrix.data)), matrix.indices, matrix.indptr), matrix.shape)
             self._transposed = places.T.tocsc().data
@@ -169,8 +174,8 @@ class DirectSolver:
 
 
 def iterated(matrix: sp.csc_array, near: Factor, b: np.ndarray) -> np.ndarray | None:
-    """x with A x = b to ITERATION_ACCURACY by conjugate gradients with the factors of a matrix close by
-    (Hestenes and Stiefel 1952); None where the factors are those of an indefinite matrix or too far off."""
+    """Solve A x = b to ITERATION_ACCURACY by conjugate gradients with the factors of a nearby matrix. Return
+    None if the nearby matrix is indefinite or too different. Source: Hestenes and Stiefel (1952)."""
     if near.negative != 0:
         return None
     n = len(b)

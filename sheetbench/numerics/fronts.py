@@ -1,8 +1,8 @@
 """The fronts of a sparse symmetric matrix whose unknowns lie in a plane, by nested dissection.
 
-The cells that share unknowns are cut in two, along x or y where the sides share the fewest, again and again,
-and an unknown is eliminated in the smallest part that holds all its cells. A part's front is the dense matrix
-of its own unknowns and of those on its border (see `multifrontal`).
+The cells are cut in two, along x or y where the sides share the fewest unknowns, again and again, and an
+unknown is eliminated in the smallest part that contains all its cells. A part's front is the dense matrix of
+its own unknowns and of the unknowns on its border (see `multifrontal`).
 Source: George, SIAM J. Numer. Anal. 10 (1973) 345; Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302.
 """
 
@@ -16,29 +16,29 @@ from scipy.sparse import csr_array
 from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import njit
 
-LEAF = 128  # unknowns of its cells, together, up to which a part of more than two is not halved
+LEAF = 128  # unknowns of a part's cells up to which a part of more than two cells is not halved
 
 
 class CoupledCells(NamedTuple):
-    """What a matrix couples, and where: unknowns (m, k) of every cell, −1 for none; its place (m, 2)."""
+    """Cells whose unknowns a matrix couples: unknowns (m, k), −1 for none, and places (m, 2) in the plane."""
 
     unknowns: np.ndarray
     places: np.ndarray
 
 
 class Fronts(NamedTuple):
-    """Where everything goes, of F fronts, halves before what they are halves of.
+    """Layout of F fronts, each after its two halves.
 
-    order: (n,) the unknown at each place; own, first: (F,) how many places a front eliminates, from where on;
-    rows: places of all fronts' unknowns, own ones first, from `starts` (F + 1,) on; halves: (F, 2), −1 where
-    there is none; target, source: of every entry of the lower triangle, where in its front it goes and where
-    in the matrix's data it is, by front from `entries` (F + 1,) on; diagonal: (n,) where in the data the
-    diagonal is, by places; kept: where the factors' columns start
-    (F + 1,); widest: the largest front; waiting: room for what fronts leave.
+    order: (n,) the unknown at each place. pivots, first: (F,) number of places that a front eliminates, and
+    the first of them. rows: places of all fronts' unknowns, pivots first, from `starts` (F + 1,) on. halves:
+    (F, 2), −1 for none. target, source: for every entry of the lower triangle its place in its front, and in
+    the matrix's data, by front from `entries` (F + 1,) on. diagonal: (n,) the diagonal's places in the data.
+    columns: (F + 1,) starts of the fronts' columns in the factors. widest: width of the largest front.
+    updates: largest total size of the fronts' updates.
     """
 
     order: np.ndarray
-    own: np.ndarray
+    pivots: np.ndarray
     first: np.ndarray
     rows: np.ndarray
     starts: np.ndarray
@@ -47,16 +47,16 @@ class Fronts(NamedTuple):
     source: np.ndarray
     entries: np.ndarray
     diagonal: np.ndarray
-    kept: np.ndarray
+    columns: np.ndarray
     widest: int
-    waiting: int
+    updates: int
 
 
 def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> Fronts:
-    """The fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal. Raises
-    ValueError where an entry of the diagonal is missing."""
+    """Return the fronts of a symmetric matrix by compressed rows, both triangles and the whole diagonal.
+    Raises ValueError if an entry of the diagonal is missing."""
     size, leaf = len(starts) - 1, max(2, LEAF // cells.unknowns.shape[1])
-    line, parts, halves = _dissected(cells, size, leaf)
+    line, parts, halves = _dissect(cells, size, leaf)
     at, column = np.nonzero(cells.unknowns[line] >= 0)
     unknown = cells.unknowns[line[at], column]
     low, high = np.zeros(size, np.int64), np.zeros(size, np.int64)
@@ -70,8 +70,8 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
         owner = np.where(below < 0, owner, below)
     order = np.argsort(owner, kind="stable")
     place = np.argsort(order)
-    own = np.bincount(owner, minlength=len(parts))
-    first = np.cumsum(own) - own
+    pivots = np.bincount(owner, minlength=len(parts))
+    first = np.cumsum(pivots) - pivots
 
     above = np.full(len(parts), -1)
     above[halves[halves >= 0]] = np.nonzero(halves >= 0)[0]
@@ -79,7 +79,7 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
     of_cells = np.repeat(leaves, np.diff(parts[leaves])[:, 0])[at]
     shape = (size, len(parts))
     step = csr_array((np.ones(len(at), bool), (place[unknown], of_cells)), shape=shape)
-    having = step  # the parts that have an unknown: from its cells' to the one that eliminates it
+    having = step  # the parts that have an unknown: from its cells' to the part that eliminates it
     while step.nnz:
         unknown, part = step.nonzero()
         on = part != owner[order[unknown]]
@@ -88,34 +88,36 @@ def fronts_of(columns: np.ndarray, starts: np.ndarray, cells: CoupledCells) -> F
     by_part = having.tocsc()
     rows, begin = by_part.indices.astype(np.int64), by_part.indptr.astype(np.int64)
     width = np.diff(begin)
-    left = np.append((width - own) ** 2, 0)
-    waiting = np.cumsum(left[:-1] - left[halves].sum(axis=1))
-    kept = np.append(0, np.cumsum(own * width))
-    target, source, entries, diagonal = _targets(columns, starts, order, place, own, first, rows, begin)
+    update = np.append((width - pivots) ** 2, 0)
+    updates = np.cumsum(update[:-1] - update[halves].sum(axis=1))
+    factor_columns = np.append(0, np.cumsum(pivots * width))
+    target, source, entries, diagonal = _targets(columns, starts, order, place, pivots, first, rows, begin)
     if np.any(diagonal < 0):
         raise ValueError("the pattern lacks a part of its diagonal")
-    widest, most = int(width.max()), int(waiting.max())
     return Fronts(
-        order, own, first, rows, begin, halves, target, source, entries, diagonal, kept, widest, most
+        *(order, pivots, first, rows, begin, halves, target, source, entries, diagonal, factor_columns),
+        int(width.max()), int(updates.max()),
     )  # fmt: skip
 
 
-def _dissected(cells: CoupledCells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Cells in line (m,), parts (F, 2) as ranges of the line, and every part's halves (F, 2), −1 for none;
-    parts in the order of a walk that ends at each part after its halves. leaf: cells in a part that is not
-    halved."""
+def _dissect(cells: CoupledCells, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return a line of cells (m,), parts (F, 2) as ranges of the line, and the parts' halves (F, 2). A part
+    follows its halves, −1 for none. leaf: number of cells in a part that is not halved."""
     orders = np.argsort(cells.places, axis=0, kind="stable").T.copy()
-    parts, halves = _halved(cells.unknowns, orders, size, leaf)
+    parts, halves = _halve(cells.unknowns, orders, size, leaf)
     walk = np.lexsort((-parts[:, 0], parts[:, 1]))
     number = np.append(np.argsort(walk), -1)
     return orders[0], parts[walk], number[halves[walk]]
 
 
 @njit
-def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray]:
-    """Parts (F, 2) and their halves (F, 2) of cells (m, k), whose orders along x and y (2, m) become those
-    within parts. Each is cut along one of them where unknowns that the sides share, of `size`, and one more
-    (for where there are none), over the square of the product of the sides' cells, are the fewest."""
+def _halve(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return parts (F, 2) and their halves (F, 2) of cells (m, k); sort `orders` (2, m) by parts.
+
+    orders: the cells along x and along y. A part is cut along an order at the least value of the number of
+    shared unknowns plus one over the square of the product of the sides' numbers of cells. size: the number
+    of unknowns.
+    """
     m, k, count = len(cells), cells.shape[1], 1
     parts, halves = zeros((2 * m, 2), np.int64), empty((2 * m, 2), np.int64)
     first, last, seen = zeros(size, np.int64), zeros(size, np.int64), empty(size, np.int64)
@@ -123,7 +125,7 @@ def _halved(cells: np.ndarray, orders: np.ndarray, size: int, leaf: int) -> tupl
     parts[0, 1], halves[:], seen[:] = m, -1, -1
     for f in range(2 * m):
         start, end = parts[f, 0], parts[f, 1]
-        if end - start <= leaf:  # beyond the last part too, where nothing is
+        if end - start <= leaf:  # also beyond the last part, where both are 0
             continue
         least, along, cut = np.inf, 0, 0
         for axis in range(2):
@@ -169,22 +171,22 @@ def _targets(
     starts: np.ndarray,
     order: np.ndarray,
     place: np.ndarray,
-    own: np.ndarray,
+    pivots: np.ndarray,
     first: np.ndarray,
     rows: np.ndarray,
     begin: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Of `Fronts`: target, source, entries, diagonal (−1 where it is missing)."""
+    """Return target, source, entries and diagonal of `Fronts`, −1 for a missing diagonal entry."""
     lower = (len(columns) + len(order)) // 2
     target, source = empty(lower, np.int32), empty(lower, np.int32)
-    entries, diagonal = zeros(len(own) + 1, np.int64), empty(len(order), np.int64)
+    entries, diagonal = zeros(len(pivots) + 1, np.int64), empty(len(order), np.int64)
     local, filled = empty(len(order), np.int64), 0
     diagonal[:] = -1
-    for f in range(len(own)):
+    for f in range(len(pivots)):
         width = begin[f + 1] - begin[f]
         for i in range(width):
             local[rows[begin[f] + i]] = i
-        for i in range(own[f]):
+        for i in range(pivots[f]):
             u = order[first[f] + i]
             for at in range(starts[u], starts[u + 1]):
                 if columns[at] == u:

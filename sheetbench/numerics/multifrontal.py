@@ -1,12 +1,12 @@
 """Factors L S Lᵀ of sparse symmetric matrices, S = ±1 on the diagonal, front by front, as compiled loops.
 
-A front takes its entries of the matrix and what is left of the fronts of its halves, eliminates its own
-unknowns and leaves the rest to the front that it is half of (see `fronts`). It is stored by columns of the
-lower triangle, a row each; PANEL columns are eliminated together, and others updated two at a time.
+A front adds up its entries of the matrix and the updates of its two halves, eliminates its own unknowns and
+passes the rest as an update to its parent (see `fronts`). It is stored by columns of the lower triangle, one
+in a row; PANEL columns are eliminated together, and others updated two at a time.
 
-Of a positive definite matrix these are Cholesky's factors. S has the inertia of any other (Sylvester); as no
-rows are exchanged, its factors may grow beyond the matrix: where L² exceeds GROWTH times the diagonal, which
-it cannot where all signs are positive, the factors are refused.
+For a positive definite matrix the factors are Cholesky's. S has the inertia of any matrix (Sylvester); since
+rows are not exchanged, factors of an indefinite matrix may grow: they are refused if L² exceeds GROWTH times
+the diagonal, which is impossible with positive signs alone.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ GROWTH = 1e3
 
 
 def signed_factors(data: np.ndarray, fronts: Fronts) -> tuple[Callable[[np.ndarray], np.ndarray], int] | None:
-    """Return what solves A x = b (n,), A having this data and the fronts' pattern, and how many of A's
-    eigenvalues are below zero; None where a pivot vanishes or is not finite, or the factors grow."""
-    factors, signs = np.empty(fronts.kept[-1]), np.ones(len(fronts.order))
+    """Return a solver of A x = b (n,) and the number of negative eigenvalues of A. data: of A, in the fronts'
+    pattern. Return None if a pivot vanishes or is not finite, or the factors grow."""
+    factors, signs = np.empty(fronts.columns[-1]), np.ones(len(fronts.order))
     if not factor(data, fronts, factors, signs):
         return None
     return partial(solve, factors, signs, fronts), int(np.count_nonzero(signs < 0.0))
@@ -45,70 +45,70 @@ def signed_factors(data: np.ndarray, fronts: Fronts) -> tuple[Callable[[np.ndarr
 
 @njit(fastmath=REORDERED)
 def factor(data: np.ndarray, fronts: Fronts, factors: np.ndarray, signs: np.ndarray) -> bool:
-    """The factors of the matrix with this data into `factors` and `signs` (n,); False if there are none."""
+    """Compute a matrix's factors from its data into `factors` and `signs` (n,); False if there are none."""
     front, panel = empty((fronts.widest + 1) * fronts.widest), empty(PANEL * fronts.widest)
-    waiting, top = empty(fronts.waiting), 0
+    updates, top = empty(fronts.updates), 0
     where, local = empty(len(fronts.order), np.int64), empty(fronts.widest, np.int64)
     diagonal, indefinite = empty(len(fronts.order)), False
     for i in range(len(diagonal)):
         diagonal[i] = abs(data[fronts.diagonal[i]])
-    for f in range(len(fronts.own)):
-        own, start, end = fronts.own[f], fronts.starts[f], fronts.starts[f + 1]
+    for f in range(len(fronts.pivots)):
+        pivots, start, end = fronts.pivots[f], fronts.starts[f], fronts.starts[f + 1]
         width = end - start
         dense = front[: (width + 1) * width].reshape(width + 1, width)
         dense[:] = 0.0
-        flat = front[: own * width]
+        flat = front[: pivots * width]
         for t in range(fronts.entries[f], fronts.entries[f + 1]):
             flat[fronts.target[t]] = data[fronts.source[t]]
         for i in range(width):
             where[fronts.rows[start + i]] = i
-        for h in range(1, -1, -1):  # what the second half has left lies on top
+        for h in range(1, -1, -1):  # the second half's update lies on top
             half = fronts.halves[f, h]
             if half >= 0:
-                left = fronts.rows[fronts.starts[half] + fronts.own[half] : fronts.starts[half + 1]]
-                rest = len(left)
+                border = fronts.rows[fronts.starts[half] + fronts.pivots[half] : fronts.starts[half + 1]]
+                rest = len(border)
                 top -= rest * rest
-                update = waiting[top : top + rest * rest].reshape(rest, rest)
+                update = updates[top : top + rest * rest].reshape(rest, rest)
                 for i in range(rest):
-                    local[i] = where[left[i]]
+                    local[i] = where[border[i]]
                 for j in range(rest):
                     column = dense[local[j]]
                     for i in range(j, rest):
                         column[local[i]] += update[j, i]
         first = fronts.first[f]
         room = panel[: PANEL * width].reshape(PANEL, width)
-        if not _eliminate(dense, diagonal[first : first + own], signs[first : first + own], room):
+        if not _eliminate(dense, diagonal[first : first + pivots], signs[first : first + pivots], room):
             return False
-        for k in range(own):
+        for k in range(pivots):
             indefinite = indefinite or signs[first + k] < 0.0
-        for k in range(own if indefinite else 0):
+        for k in range(pivots if indefinite else 0):
             for i in range(k, width):
                 if not dense[k, i] ** 2 <= GROWTH * diagonal[fronts.rows[start + i]]:
                     return False
-        kept = fronts.kept[f]
+        columns = fronts.columns[f]
         for i in range(len(flat)):
-            factors[kept + i] = flat[i]
-        for k in range(own):
-            factors[kept + k * width + k] = 1.0 / dense[k, k]
-        rest = width - own
-        update = waiting[top : top + rest * rest].reshape(rest, rest)
+            factors[columns + i] = flat[i]
+        for k in range(pivots):
+            factors[columns + k * width + k] = 1.0 / dense[k, k]
+        rest = width - pivots
+        update = updates[top : top + rest * rest].reshape(rest, rest)
         for j in range(rest):
-            column = dense[own + j]
+            column = dense[pivots + j]
             for i in range(j, rest):
-                update[j, i] = column[own + i]
+                update[j, i] = column[pivots + i]
         top += rest * rest
     return True
 
 
 @inner(fastmath=REORDERED)
 def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel: np.ndarray) -> bool:
-    """Turn the first columns of a lower triangle, stored in rows with one to spare, into those of its factor,
-    and the others into what is left; False at a pivot that is not finite, or nothing but rounding. panel:
-    room (PANEL, width), where columns that are missing are zero."""
-    width, own = dense.shape[1], len(signs)
+    """Turn the first columns of a lower triangle into columns of its factor, and the others into the update.
+    dense: the columns as rows, with a spare one. panel: workspace (PANEL, width), zero for missing columns.
+    Return False at a pivot that is not finite, or rounding."""
+    width, pivots = dense.shape[1], len(signs)
     shares, sign, rows = zeros((PANEL, PANEL)), zeros(PANEL), panel.ravel()
-    for k0 in range(0, own, PANEL):
-        start = min(own, k0 + PANEL)
+    for k0 in range(0, pivots, PANEL):
+        start = min(pivots, k0 + PANEL)
         if start < k0 + PANEL:
             panel[:] = 0.0
             shares[:] = 0.0
@@ -139,14 +139,14 @@ def _eliminate(dense: np.ndarray, diagonal: np.ndarray, signs: np.ndarray, panel
 
 @inner(fastmath=REORDERED)
 def _update(rows: np.ndarray, sign: np.ndarray, dense: np.ndarray, start: int) -> None:
-    """Take the products of a panel's rows (PANEL · width,) off the columns from `start` on."""
+    """Subtract the products of a panel's rows (PANEL · width,) from the columns from `start` on."""
     width = np.uint64(dense.shape[1])
     signs = load_each(0, sign, 0, 1, PANEL)
     for j in range(start, dense.shape[1], 2):
         f, g = times(signs, load_each(0, rows, j, width, PANEL)), NOTHING
         if j + 1 < dense.shape[1]:
             g = times(signs, load_each(0, rows, j + 1, width, PANEL))
-        one, two = dense[j], dense[j + 1]  # what is above the second's diagonal is never looked at
+        one, two = dense[j], dense[j + 1]  # entries above the second's diagonal are never read
         for i in range(j, dense.shape[1]):
             m = load_each(0, rows, i, width, PANEL)
             store(1, one, i, load(1, one, i) - dot(f, m))
@@ -155,46 +155,46 @@ def _update(rows: np.ndarray, sign: np.ndarray, dense: np.ndarray, start: int) -
 
 @njit(fastmath=REORDERED)
 def solve(factors: np.ndarray, signs: np.ndarray, fronts: Fronts, b: np.ndarray) -> np.ndarray:
-    """x (n,) with A x = b."""
+    """Solve A x = b for x (n,)."""
     y = b[fronts.order]
     local = empty(fronts.widest)
-    for f in range(len(fronts.own)):
-        own, first = fronts.own[f], fronts.first[f]
+    for f in range(len(fronts.pivots)):
+        pivots, first = fronts.pivots[f], fronts.first[f]
         rows = fronts.rows[fronts.starts[f] : fronts.starts[f + 1]]
-        at, width = fronts.kept[f], len(rows)
-        for i in range(own):
+        at, width = fronts.columns[f], len(rows)
+        for i in range(pivots):
             local[i] = y[first + i]
-        local[own : len(rows)] = 0.0
-        whole = own - own % PANEL
+        local[pivots : len(rows)] = 0.0
+        whole = pivots - pivots % PANEL
         for k0 in range(0, whole, PANEL):
             solve_forward(factors, at + k0 * width + k0, width, local, k0, width - k0 - PANEL)
-        for k in range(whole, own):
+        for k in range(whole, pivots):
             column = factors[at + k * width : at + (k + 1) * width]
             local[k] *= column[k]
             share = local[k]
             for i in range(k + 1, len(rows)):
                 local[i] -= share * column[i]
-        for i in range(own):
+        for i in range(pivots):
             y[first + i] = local[i]
-        for i in range(own, len(rows)):
+        for i in range(pivots, len(rows)):
             y[rows[i]] += local[i]
-    for f in range(len(fronts.own) - 1, -1, -1):
-        own, first = fronts.own[f], fronts.first[f]
+    for f in range(len(fronts.pivots) - 1, -1, -1):
+        pivots, first = fronts.pivots[f], fronts.first[f]
         rows = fronts.rows[fronts.starts[f] : fronts.starts[f + 1]]
-        at, width = fronts.kept[f], len(rows)
-        for i in range(own):
+        at, width = fronts.columns[f], len(rows)
+        for i in range(pivots):
             local[i] = signs[first + i] * y[first + i]
-        for i in range(own, len(rows)):
+        for i in range(pivots, len(rows)):
             local[i] = y[rows[i]]
-        whole = own - own % PANEL
-        for k in range(own - 1, whole - 1, -1):
+        whole = pivots - pivots % PANEL
+        for k in range(pivots - 1, whole - 1, -1):
             column, value = factors[at + k * width : at + (k + 1) * width], local[k]
             for i in range(k + 1, len(rows)):
                 value -= column[i] * local[i]
             local[k] = value * column[k]
         for k0 in range(whole - PANEL, -1, -PANEL):
             solve_backward(factors, at + k0 * width + k0, width, local, k0, width - k0 - PANEL)
-        for i in range(own):
+        for i in range(pivots):
             y[first + i] = local[i]
     x = empty(y.shape)
     for i in range(len(y)):

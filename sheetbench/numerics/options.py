@@ -15,10 +15,10 @@ from numba import typeof
 from numba.core import config
 from numba.extending import register_jitable, typeof_impl
 
-import sheetbench.kernels  # noqa: F401  # where compiled kernels are kept
+import sheetbench.kernels  # noqa: F401  # cache of compiled kernels
 
-# the same for all, since numba compiles a function again for callers with other options; no wrappers for C,
-# a tenth of what compiling takes
+# equal for all functions, since numba compiles a function again for callers with other options; no wrappers
+# for C, a tenth of the time for compiling
 COMMON: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 REORDERED = {"reassoc", "contract", "nsz"}  # sums in any order, for vector instructions; infinities count
 njit: Any = partial(numba.njit, cache=True, **COMMON)
@@ -28,7 +28,7 @@ _TYPES: dict[Any, Any] = {}
 
 
 class TypedTuple(tuple[Any, ...]):
-    """What compiled functions see as the named tuple that it was made of; Python sees no names."""
+    """Tuple that compiled functions take as the named tuple it was made of; Python has no names in it."""
 
     _numba_type_: Any
 
@@ -39,19 +39,19 @@ def _typeof(value: TypedTuple, context: Any) -> Any:
 
 
 def typed(value: T) -> T:
-    """Return a named tuple of arrays, numbers and such tuples with its type, for compiled functions alone."""
+    """Return a named tuple of arrays, numbers and typed tuples with its type, for compiled functions."""
     if config.DISABLE_JIT:  # type: ignore[attr-defined]  # made from the environment
         return value
     if (key := _key(value)) not in _TYPES:
         _TYPES[key] = typeof(value)
-    found = TypedTuple(value)
-    found._numba_type_ = _TYPES[key]
-    return cast(T, found)
+    typed_tuple = TypedTuple(value)
+    typed_tuple._numba_type_ = _TYPES[key]
+    return cast(T, typed_tuple)
 
 
 def _key(value: Any) -> Any:
     if isinstance(value, TypedTuple):
-        return id(value._numba_type_)  # of those kept, whose hash is that of all their parts
+        return id(value._numba_type_)  # cached, since the hash of a type hashes all its parts
     if isinstance(value, tuple):
         return type(value), *map(_key, value)
     return (value.dtype, value.ndim, value.flags.num) if isinstance(value, np.ndarray) else type(value)

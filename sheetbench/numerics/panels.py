@@ -1,6 +1,6 @@
 """PANEL columns of a Cholesky factor at once, as compiled loops whose operands stay in registers.
 
-Entry r of column p, counted from the first column's diagonal, lies at place + r + p · apart of a flat array.
+Entry r of column p, counted from the first column's diagonal, lies at place + r + p · stride of a flat array.
 The diagonal is inverted.
 """
 
@@ -37,9 +37,9 @@ def times(a: Any, b: Any) -> Any:
 
 
 @inner()
-def triangle(flat: np.ndarray, place: Any, apart: Any) -> Any:
+def triangle(flat: np.ndarray, place: Any, stride: Any) -> Any:
     """Return the panel's own rows: the diagonal, and the columns below it."""
-    next_ = apart + np.uint64(1)
+    next_ = stride + np.uint64(1)
     p = np.uint64(place) + np.uint64(1)
     return (
         load_each(0, flat, place, next_, PANEL),
@@ -78,11 +78,11 @@ def backward(corner: Any, b: Any) -> Any:
 
 
 @inner(fastmath=REORDERED)
-def eliminate(corner: Any, flat: np.ndarray, place: Any, apart: Any, count: Any) -> None:
-    """Turn `count` rows of the panel, from `place` on, into those of the factor, in place."""
-    p0, apart = np.uint64(place), np.uint64(apart)
-    p1, p2, p3 = p0 + apart, p0 + np.uint64(2) * apart, p0 + np.uint64(3) * apart
-    p4, p5 = p3 + apart, p3 + np.uint64(2) * apart
+def eliminate(corner: Any, flat: np.ndarray, place: Any, stride: Any, count: Any) -> None:
+    """Turn `count` rows of the panel, from `place` on, into rows of the factor, in place."""
+    p0, stride = np.uint64(place), np.uint64(stride)
+    p1, p2, p3 = p0 + stride, p0 + np.uint64(2) * stride, p0 + np.uint64(3) * stride
+    p4, p5 = p3 + stride, p3 + np.uint64(2) * stride
     for i in range(np.uint64(count)):
         b0, b1, b2 = load(0, flat, p0 + i), load(1, flat, p1 + i), load(2, flat, p2 + i)
         b3, b4, b5 = load(3, flat, p3 + i), load(4, flat, p4 + i), load(5, flat, p5 + i)
@@ -96,23 +96,23 @@ def eliminate(corner: Any, flat: np.ndarray, place: Any, apart: Any, count: Any)
 
 
 @inner(fastmath=REORDERED)
-def solve_forward(flat: np.ndarray, place: Any, apart: Any, x: np.ndarray, at: Any, count: Any) -> None:
-    """Solve with the panel for x from `at` on, and take it off the `count` entries behind, in place."""
-    place, apart, behind = np.uint64(place), np.uint64(apart), np.uint64(PANEL)
-    f = forward(triangle(flat, place, apart), load_each(1, x, at, 1, PANEL))
+def solve_forward(flat: np.ndarray, place: Any, stride: Any, x: np.ndarray, at: Any, count: Any) -> None:
+    """Solve with the panel for x from `at` on, and subtract it from the next `count` entries, in place."""
+    place, stride, behind = np.uint64(place), np.uint64(stride), np.uint64(PANEL)
+    f = forward(triangle(flat, place, stride), load_each(1, x, at, 1, PANEL))
     store_each(1, x, at, 1, f)
     rest = x[at + PANEL :]
     for i in range(np.uint64(count)):
-        taken = dot(f, load_each(0, flat, place + behind + i, apart, PANEL))
+        taken = dot(f, load_each(0, flat, place + behind + i, stride, PANEL))
         store(1, rest, i, load(1, rest, i) - taken)
 
 
 @inner(fastmath=REORDERED)
-def solve_backward(flat: np.ndarray, place: Any, apart: Any, x: np.ndarray, at: Any, count: Any) -> None:
-    """Solve with the panel's transpose for x from `at` on, given the `count` entries behind, in place."""
-    place, apart, behind, s = np.uint64(place), np.uint64(apart), np.uint64(PANEL), NOTHING
+def solve_backward(flat: np.ndarray, place: Any, stride: Any, x: np.ndarray, at: Any, count: Any) -> None:
+    """Solve with the panel's transpose for x from `at` on, given the next `count` entries, in place."""
+    place, stride, behind, s = np.uint64(place), np.uint64(stride), np.uint64(PANEL), NOTHING
     rest = x[at + PANEL :]
     for i in range(np.uint64(count)):
-        s = plus(s, load(1, rest, i), load_each(0, flat, place + behind + i, apart, PANEL))
+        s = plus(s, load(1, rest, i), load_each(0, flat, place + behind + i, stride, PANEL))
     b = plus(load_each(1, x, at, 1, PANEL), -1.0, s)
-    store_each(1, x, at, 1, backward(triangle(flat, place, apart), b))
+    store_each(1, x, at, 1, backward(triangle(flat, place, stride), b))

@@ -1,11 +1,11 @@
 """Tᵀ K T, the matrix of free unknowns of a matrix K in 3×3 blocks, from the blocks to factors.
 
-It keeps one pattern, so the map from block entries to its entries is found once and the symbolic analysis is
-done once. The matrix has sorted rows by columns (CSC). Entry e of the map adds weight[e] times source[e] of
-the blocks, laid out one after the other, to the nonzero k with starts[k] ≤ e < starts[k + 1]. Where all
-weights are one, as without hinges and actuators, none are kept, nor starts where every nonzero has one entry.
-Small symmetric systems have banded Cholesky factors; those that are not positive definite, and larger ones,
-go to `direct`. Constraints' multipliers among the unknowns: see `saddle_point`.
+Its pattern is constant, so that the map from block entries to its entries and the symbolic analysis are
+computed once. The matrix has sorted rows by columns (CSC). Entry e of the map adds weight[e] times entry
+source[e] of the flat blocks to the nonzero k with starts[k] ≤ e < starts[k + 1]. If all weights are one, as
+without hinges and actuators, they are not stored, nor are starts if every nonzero has one entry. Small
+positive definite systems have banded Cholesky factors; others go to `direct`. For constraints' multipliers
+among the unknowns see `saddle_point`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ BANDED_LIMIT = 2.0e7  # multiplications, n × bandwidth², below which bands are
 
 class BlockPattern(Protocol):
     """Blocks (b,) of a symmetric pattern over n nodes, as in BSR: rows, indices (b,), indptr (n + 1,). cells:
-    sets of nodes in the plane such that each block has both its nodes in one of them, if there are such."""
+    sets of nodes in the plane, one for each block that contains both its nodes, or None."""
 
     size: int
     rows: np.ndarray
@@ -40,7 +40,7 @@ class BlockPattern(Protocol):
 
 
 class Reduction(NamedTuple):
-    """pointers (m + 1,), rows (nonzeros,) of the matrix; starts (nonzeros + 1,), source, weight: the map."""
+    """Reduced matrix (pointers (m + 1,), rows) and map to it (starts (nonzeros + 1,), source, weight)."""
 
     pointers: np.ndarray
     rows: np.ndarray
@@ -49,22 +49,22 @@ class Reduction(NamedTuple):
     weight: np.ndarray
 
     def columns(self) -> np.ndarray:
-        """Column of every nonzero."""
+        """Return the column of every nonzero."""
         return np.repeat(np.arange(len(self.pointers) - 1), np.diff(self.pointers))
 
     def entries(self) -> np.ndarray:
-        """How many entries every nonzero has."""
+        """Return the number of the map's entries for every nonzero."""
         return np.diff(self.starts) if len(self.starts) else np.ones(len(self.rows), int)
 
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
-        """The reduced matrix (m, m) of blocks (b, 3, 3)."""
+        """Return the reduced matrix (m, m) of blocks (b, 3, 3)."""
         size = len(self.pointers) - 1
-        data = _gathered(blocks.ravel(), self.starts, self.source, self.weight)
+        data = _gather(blocks.ravel(), self.starts, self.source, self.weight)
         return sp.csc_array((data, self.rows, self.pointers), shape=(size, size))
 
 
 def banded_factor(band: banded.Band, factors: np.ndarray, matrix: Callable[[], sp.csc_array]) -> Factor:
-    """Return Cholesky factors in a band: of a positive definite matrix, which is made where it is needed."""
+    """Return banded Cholesky factors as a Factor; matrix: makes the matrix when it is needed."""
     solve = partial(banded.solve_unrefined, factors, band.width, band.order)
     return Factor(matrix, solve, 0, backward_error=CHOLESKY)
 
@@ -72,8 +72,8 @@ def banded_factor(band: banded.Band, factors: np.ndarray, matrix: Callable[[], s
 class ReducedSystem:
     """Tᵀ K T over a fixed pattern, from the blocks of K to factors.
 
-    transform: (3n, m) sparse; symmetric: whether K is, and the factors tell the inertia; multipliers: (m,)
-    bool, the unknowns that are constraints' multipliers.
+    transform: (3n, m) sparse. symmetric: whether K is symmetric; the factors then have the inertia.
+    multipliers: (m,) bool, the unknowns that are constraints' multipliers.
     """
 
     def __init__(
@@ -95,31 +95,31 @@ class ReducedSystem:
 
     @cached_property
     def band(self) -> banded.Band | None:
-        """The band of a small symmetric system without multipliers; None of others."""
+        """Return the band of a small symmetric system without multipliers, None for others."""
         if not self.symmetric or self._multipliers is not None:
             return None
-        found = self._reduction
-        order, width = banded.ordered(found.rows, found.columns(), self.unknowns)
+        reduced = self._reduction
+        order, width = banded.ordered(reduced.rows, reduced.columns(), self.unknowns)
         if self.unknowns * (width + 1.0) ** 2 >= BANDED_LIMIT:
             return None
-        entries = found.entries()
-        rows, columns = np.repeat(found.rows, entries), np.repeat(found.columns(), entries)
-        weight = found.weight if len(found.weight) else np.ones(len(rows))
-        return banded.band_of(found.source, rows, columns, weight, order, width)
+        entries = reduced.entries()
+        rows, columns = np.repeat(reduced.rows, entries), np.repeat(reduced.columns(), entries)
+        weight = reduced.weight if len(reduced.weight) else np.ones(len(rows))
+        return banded.band_of(reduced.source, rows, columns, weight, order, width)
 
     @cached_property
     def _fronts(self) -> Fronts:
         cells, transform = self._pattern.cells, self._transform
         assert cells is not None
-        # what is no unknown itself depends on those of its own cells
+        # a component that is no unknown itself depends on unknowns of its own cells
         components = np.flatnonzero(np.diff(transform.indptr) == 1)
         entries = transform.indptr[components]
         own = transform.data[entries] == 1.0
         number = np.full(3 * self._pattern.size, -1)
         number[components[own]] = transform.indices[entries[own]]
         of_cells = number.reshape(-1, 3)[cells.unknowns].reshape(len(cells.unknowns), -1)
-        found = self._reduction
-        return fronts_of(found.rows, found.pointers, CoupledCells(of_cells, cells.places))
+        reduced = self._reduction
+        return fronts_of(reduced.rows, reduced.pointers, CoupledCells(of_cells, cells.places))
 
     @cached_property
     def _saddle(self) -> Saddle | None:
@@ -128,18 +128,17 @@ class ReducedSystem:
         return Saddle(self._reduction.rows, self._reduction.columns(), self._multipliers)
 
     def matrix(self, blocks: np.ndarray) -> sp.csc_array:
-        """The reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
+        """Return the reduced matrix (m, m) of blocks (b, 3, 3), both triangles."""
         return self._reduction.matrix(blocks)
 
     def apply(self, blocks: np.ndarray, u: np.ndarray) -> np.ndarray:
-        """K u for a displacement (n, 3): force (n, 3)."""
+        """Return the force K u (n, 3) of a displacement (n, 3)."""
         full = sp.bsr_array((blocks, self._pattern.indices, self._pattern.indptr))
         product: np.ndarray = full @ u.ravel()
         return product.reshape(u.shape)
 
     def factor(self, blocks: np.ndarray, more: Count = lambda: None) -> Factor:
-        """Factors of Tᵀ K T; more: as of `DirectSolver.factor`. Raises SingularMatrixError where there
-        are none."""
+        """Return the factors of Tᵀ K T; more: as in `DirectSolver.factor`. Raises SingularMatrixError."""
         if self.band is not None:
             factors, definite = banded.factored(blocks, self.band)
             if definite:
@@ -155,8 +154,7 @@ class ReducedSystem:
 
 
 def reduced(pattern: BlockPattern, transform: sp.csr_array, symmetric: bool) -> ReducedSystem:
-    """The system of unknowns without multipliers; a small one is the same again where a pattern is reduced in
-    the same way."""
+    """Return the system of unknowns without multipliers, a small one from a cache of recent systems."""
     pointers, columns = (part.astype(np.int32) for part in (transform.indptr, transform.indices))
     return _reduced(pattern, transform.shape, pointers, columns, transform.data, symmetric)
 
@@ -174,7 +172,7 @@ def _reduced(
 
 
 def reduction(pattern: BlockPattern, transform: sp.csr_array) -> Reduction:
-    """Of a pattern and T (3n, m)."""
+    """Return the map of a pattern reduced by T (3n, m)."""
     by_column = np.argsort(pattern.indices, kind="stable").astype(np.int32)
     block_pointers = np.searchsorted(pattern.indices[by_column], np.arange(pattern.size + 1))
     columns, size = transform.tocsc(), transform.shape[1]
@@ -213,7 +211,7 @@ def _entries(
     c_values: np.ndarray,
     count: int,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Entries of the map by columns of the matrix: source, row, weight, and where each column's begin."""
+    """Return the map's entries by columns of the matrix: source, row, weight, and the columns' starts."""
     source, to, weight = empty(count, np.int32), empty(count, np.int32), empty(count)
     ends, filled = zeros(len(c_pointers), np.int32), 0
     for column in range(len(c_pointers) - 1):
@@ -231,8 +229,8 @@ def _entries(
 
 
 @njit
-def _gathered(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """The nonzeros of the reduced matrix."""
+def _gather(entries: np.ndarray, starts: np.ndarray, source: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return the nonzeros of the reduced matrix."""
     if not len(starts):
         return entries[source]
     out = zeros(len(starts) - 1)

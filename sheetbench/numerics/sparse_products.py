@@ -1,4 +1,4 @@
-"""A sparse linear map and its transpose, applied by compiled loops: SciPy's take longer to begin."""
+"""Products of a sparse matrix and its transpose with vectors, by compiled loops: SciPy's start slower."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ class Rows(NamedTuple):
 
 
 def csr_arrays(matrix: sp.csr_array) -> Rows:
-    """Return the arrays of a SciPy matrix, their integers int64: kernels are compiled for each size apart."""
+    """Return the arrays of a SciPy matrix with int64 integers, the one type that kernels are compiled for."""
     pointers, columns = (part.astype(np.int64) for part in (matrix.indptr, matrix.indices))
     return typed(Rows(pointers, columns, matrix.data))
 
 
 @inner()
 def add_product(matrix: Rows, share: float, q: np.ndarray, out: np.ndarray) -> None:
-    """Add share × T q, of q (m,), to `out` (n,)."""
+    """Add share × T q to `out` (n,); q: (m,)."""
     e = np.uint64(0)
     for row in range(len(out)):
         total, end = 0.0, np.uint64(matrix.pointers[row + 1])
@@ -39,7 +39,7 @@ def add_product(matrix: Rows, share: float, q: np.ndarray, out: np.ndarray) -> N
 
 @njit
 def product(matrix: Rows, q: np.ndarray) -> np.ndarray:
-    """T q, (n,), of q (m,)."""
+    """Return T q (n,) of q (m,)."""
     out = zeros(len(matrix.pointers) - 1)
     add_product(matrix, 1.0, q, out)
     return out
@@ -47,7 +47,7 @@ def product(matrix: Rows, q: np.ndarray) -> np.ndarray:
 
 @njit
 def transposed_product(matrix: Rows, f: np.ndarray, size: int) -> np.ndarray:
-    """Tᵀ f, (size,), of f (n,)."""
+    """Return Tᵀ f (size,) of f (n,)."""
     out = zeros(size)
     for row in range(len(matrix.pointers) - 1):
         for e in range(matrix.pointers[row], matrix.pointers[row + 1]):

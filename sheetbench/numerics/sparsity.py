@@ -1,4 +1,4 @@
-"""Element matrices into a compressed sparse matrix whose pattern is found once.
+"""Assembly of element matrices into a compressed sparse matrix whose pattern is computed once.
 
 Every entry of every element matrix has a slot in the matrix's data. Held unknowns carry the number −1 and
 are left out.
@@ -19,12 +19,12 @@ from sheetbench.numerics.options import njit
 
 
 class Pattern:
-    """Of one kind of element or of several.
+    """Sparsity pattern of one kind of element or of several.
 
-    unknowns: for every kind (m, k), the number of each element's unknowns in 0 … size − 1, or −1 where held;
-    places: of all elements in the plane (M, 2), which the order of elimination goes by. cells: the unknowns
-    of all elements (M, widest k), −1 too where one has fewer. slots: for every kind (m, k, k), where in the
-    data an entry goes, −1 where it is left out.
+    unknowns: for every kind (m, k), the numbers of each element's unknowns in 0 … size − 1, −1 if held.
+    places: of all elements in the plane (M, 2), for the order of elimination. cells: the unknowns of all
+    elements (M, widest k), padded with −1. slots: for every kind (m, k, k), the place of an entry in the
+    data, −1 if it is left out.
     """
 
     def __init__(self, *unknowns: np.ndarray, size: int, places: np.ndarray | None = None):
@@ -49,27 +49,27 @@ class Pattern:
 
     @cached_property
     def fronts(self) -> Fronts:
-        """Where everything goes in Cholesky factors."""
+        """Return the fronts of the matrix."""
         assert self._places is not None
         return fronts_of(self._columns, self._starts, CoupledCells(self.cells, self._places))
 
     def matrix(self, *blocks: np.ndarray, diagonal: np.ndarray | None = None) -> csr_matrix:
-        """Sum of element matrices (m, k, k) by kind, kinds left out being zero, and of a diagonal (size,)."""
+        """Return the sum of element matrices (m, k, k) of the first kinds, and of a diagonal (size,)."""
         data = self.zeros(diagonal)
         for slots, block in zip(self.slots, blocks, strict=False):
             add_blocks(data, slots, block)
         return self.with_data(data)
 
     def zeros(self, diagonal: np.ndarray | None = None) -> np.ndarray:
-        """The data of a zero matrix, or of one with a diagonal (size,), for blocks to be added to."""
+        """Return the data of a zero matrix, or of a diagonal (size,), to which blocks can be added."""
         data = np.zeros(len(self._columns))
         if diagonal is not None:
             data[self._diagonal] = diagonal
         return data
 
     def with_data(self, data: np.ndarray) -> csr_matrix:
-        """The matrix (size, size) with this data."""
-        matrix = copy(self._empty)  # SciPy would look at the indices again
+        """Return the matrix (size, size) with given data."""
+        matrix = copy(self._empty)  # SciPy would check the indices again
         matrix.data = data
         return matrix
 
@@ -84,7 +84,7 @@ class Pattern:
 
 @cached(last=8, most=1 << 20)
 def pattern_of(places: np.ndarray, *unknowns: np.ndarray, size: int) -> Pattern:
-    """The pattern of elements at these places; of small ones the last few are kept."""
+    """Return the pattern of elements at places; the last few small patterns are cached."""
     return Pattern(*unknowns, size=size, places=places)
 
 
@@ -92,10 +92,10 @@ def pattern_of(places: np.ndarray, *unknowns: np.ndarray, size: int) -> Pattern:
 def _slots(
     columns: np.ndarray, rows: np.ndarray, cells: np.ndarray, touching: np.ndarray, ends: np.ndarray
 ) -> np.ndarray:
-    """Place in the data of every entry of all element matrices (M, k, k), −1 where it is left out.
+    """Return the place in the data of every entry of all element matrices (M, k, k), −1 if it is left out.
 
-    columns, rows: of the matrix; touching: places in `cells` (M, k), flat, of the unknowns in order, from
-    ends (size + 1,) on.
+    columns, rows: of the matrix. touching: flat places in `cells` (M, k) of the unknowns in order, from ends
+    (size + 1,) on.
     """
     m, k = cells.shape
     out, place = empty((m, k, k), np.int32), empty(len(rows), np.int32)

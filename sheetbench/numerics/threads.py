@@ -16,14 +16,14 @@ from threadpoolctl import ThreadpoolController
 
 @cache
 def _libraries() -> list[Any]:
-    """The BLAS libraries of this process. (`ThreadpoolController.limit` asks them for all they can tell, and
-    that takes longer than to factor a small lattice's tangent.)"""
+    """Return the BLAS libraries of this process. `ThreadpoolController.limit` queries all their properties,
+    which takes longer than factoring a small lattice's tangent."""
     return list(ThreadpoolController().select(user_api="blas").lib_controllers)
 
 
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
-    """A context in which BLAS works on one thread."""
+    """Limit BLAS to one thread within the block."""
     before = [(library, library.get_num_threads()) for library in _libraries()]
     several = [(library, threads) for library, threads in before if threads != 1]
     for library, _ in several:

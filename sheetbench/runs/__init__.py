@@ -1,1 +1,1 @@
-"""Runs of a motion, whatever moves: how samples divide one, what a sample holds, where samples are kept."""
+"""Runs of a motion of any model: their division into samples, the contents of samples, their storage."""

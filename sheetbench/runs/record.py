@@ -1,4 +1,4 @@
-"""A motion as a `History`: what runs, where its samples go, its notes."""
+"""Record of a motion as a `History`: its recipe, the storage of its samples, its notes."""
 
 from __future__ import annotations
 
@@ -24,8 +24,9 @@ from sheetbench.scenes.objects.obstacles import CREEPS
 
 @dataclass(frozen=True)
 class Recipe(Generic[AnyState]):
-    """A motion of a scene to be run. key: JSON-able, on what its numbers depend, beside the scene; rows: of a
-    frame; start: the state to begin in, with the work of what moves at once."""
+    """A motion of a scene, ready to be run. key: data for JSON on which the numbers depend besides the
+    scene. rows: number of rows of a frame. start: makes the initial state, with the work of parts that
+    move at once."""
 
     scene: Scene
     label: str
@@ -40,13 +41,13 @@ class Recipe(Generic[AnyState]):
 
 
 class Keeping(TypedDict, total=False):
-    """What is kept of a motion, and where: keywords of both solvers' `simulate`.
+    """Storage of a motion: keywords of both solvers' `simulate`.
 
-    store: a folder to stream to; a run that was stopped goes on from there. frames: whole displacements to
-    keep, evenly over the run, in `extra`: "frames" (f, n, 3) [m], "frame_times" (f,) [s], the "mesh" they
-    belong to, "sample", which takes one and plan points (p, 2) [m] to displacements (p, 3), and "axes", of
-    each edge with chains the rest places (p, 3) and displacements (f, p, 3) [m] of its axis. progress: called
-    with the time reached [s].
+    store: a folder for samples; a stopped run resumes from it. frames: number of whole displacements kept,
+    evenly over the run, in `extra`: "frames" (f, n, 3) [m], "frame_times" (f,) [s], their "mesh", "sample",
+    a function of a frame and plan points (p, 2) [m] with displacements (p, 3), and "axes", for each edge with
+    chains the rest places (p, 3) and displacements (f, p, 3) [m] of its axis. progress: called with the time
+    reached [s].
     """
 
     store: Path | None
@@ -55,13 +56,13 @@ class Keeping(TypedDict, total=False):
 
 
 def parted(options: dict[str, Any]) -> tuple[Keeping, dict[str, Any]]:
-    """Return what options say of `Keeping`, and the others."""
+    """Split options into the keywords of `Keeping` and the others."""
     keeping = {name: options[name] for name in Keeping.__annotations__ if name in options}
     return cast(Keeping, keeping), {name: of for name, of in options.items() if name not in keeping}
 
 
 def columns_of(scene: Scene, reactions: Iterable[str], wrenches: Mapping[str, np.ndarray]) -> list[Part]:
-    """Return what a row holds: time, energies, displacements of probes, reactions, forces of actuators."""
+    """Return the parts of a row: time, energies, displacements of probes, reactions, forces of actuators."""
     return [
         ("time", "", ()),
         *(("energy", name, ()) for name in ENERGIES),
@@ -72,12 +73,12 @@ def columns_of(scene: Scene, reactions: Iterable[str], wrenches: Mapping[str, np
 
 
 def width(columns: Sequence[Part]) -> int:
-    """How many numbers a row has."""
+    """Return the number of numbers in a row."""
     return sum(math.prod(shape) for _, _, shape in columns)
 
 
 def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.ndarray]]:
-    """Rows (n, width) as kind → name → (n, …)."""
+    """Split rows (n, width) into arrays (n, …) by kind and name."""
     parts: dict[str, dict[str, np.ndarray]] = {kind: {} for kind, _, _ in columns}
     ends = np.cumsum([math.prod(shape) for _, _, shape in columns])
     for (kind, name, shape), part in zip(columns, np.split(rows, ends[:-1], axis=1), strict=True):
@@ -86,17 +87,17 @@ def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.n
 
 
 def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
-    """Run a motion, in memory or in a folder, from where that has come. began: when its set-up did [s].
+    """Run a motion, in memory or in a folder, from the folder's last checkpoint.
 
-    Raises BadInput for a folder that holds another run, or one of other code, that another process writes to
-    or that cannot be written, and for damaged files.
+    began: the clock's time at the start of the set-up [s]. Raises BadInput for a folder with another run or a
+    run of other code, a folder in use or without permission to write, and for damaged files.
     """
     frames, store, method = keeping.get("frames", 0), keeping.get("store"), recipe.method
     columns, schedule = recipe.observer.columns, recipe.schedule
     described = [[kind, name, list(shape)] for kind, name, shape in columns]
     with ExitStack() as open_store:
         shapes = {"samples": (width(columns),), "frames": (recipe.rows, 3)}
-        kept: FolderStore | MemoryStore = MemoryStore(shapes)
+        storage: FolderStore | MemoryStore = MemoryStore(shapes)
         if store is not None:
             key = {
                 "scene": recipe.scene.document(),
@@ -105,14 +106,14 @@ def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
                 "frames": frames,
                 "columns": described,
             }
-            kept = open_store.enter_context(FolderStore(store, shapes, key))
+            storage = open_store.enter_context(FolderStore(store, shapes, key))
         shown = schedule.shown(frames)
-        run = Run(method, recipe.observer, schedule, kept, shown, keeping.get("progress"))
+        run = Run(method, recipe.observer, schedule, storage, shown, keeping.get("progress"))
         ready = now()
         with one_blas_thread():
             status, message = run.finish(recipe.start)
         done = now()
-        parts, whole = split(columns, kept.rows("samples")), kept.rows("frames")
+        parts, whole = split(columns, storage.rows("samples")), storage.rows("frames")
     creeping = (f"{name}: {CREEPS}" for name, one in recipe.scene.named_obstacles().items() if one.friction)
     return History(
         label=recipe.label,

@@ -1,9 +1,9 @@
 """A run of a motion from its start, or from its last checkpoint, to its end, of any method and model.
 
-Samples, frames and checkpoints go to a store as they come. A checkpoint is the end of a step; what methods
-keep only for speed is forgotten there, so that a run that is taken up goes on to the last bit as one that
-never stopped. Every sample is looked at: numbers that overflow, elements that turn inside out and energy
-from nowhere end the run with the time, the place and what to change.
+Samples, frames and checkpoints are stored as they come. A checkpoint is the end of a step; methods drop data
+that they keep only for speed there, so that a resumed run equals an uninterrupted one to the last bit. Every
+sample is checked: numbers that overflow, elements that turn inside out and a growing total energy end the run
+with the time, the place and a remedy.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from sheetbench.numerics.time.method import Advance, AnyState, MotionMethod, Ste
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, Schedule
 from sheetbench.runs.store import FolderStore, MemoryStore
 
-Part = tuple[str, str, tuple[int, ...]]  # of the numbers of a sample: kind, name, shape
+Part = tuple[str, str, tuple[int, ...]]  # part of a sample's numbers: kind, name, shape
 
-GROWN, TOLD = 0.1, 0.01  # shares of the energy: as of `Watch`
-MOST_STEPS = 100_000  # of a method that adapts them, between two samples
+GROWN, REPORTED = 0.1, 0.01  # shares of the energy, for `Watch`
+MOST_STEPS = 100_000  # of adaptive length between two samples
 
 
 class Observer(Protocol):
-    """What a model says of samples, as its method gives them. columns: what a row of numbers holds: the time,
-    kinetic, elastic, potential and dissipated energy, work, then the rest; least_energy: [J] below
-    which all is rounding."""
+    """A model's evaluation of its method's samples. columns: the parts of a row of numbers: time, kinetic,
+    elastic, potential and dissipated energy, work and then the rest. least_energy: [J], below which an energy
+    is rounding."""
 
     columns: list[Part]
     least_energy: float
@@ -43,14 +43,13 @@ class Observer(Protocol):
         """Return the numbers of samples, (k, width)."""
 
     def inspect(self, samples: Any, count: int) -> tuple[np.ndarray, Fault | None]:
-        """Return how far the sheet is strained, as `beyond` takes it, at those of the first `count` samples
-        before one that means nothing, and why that one does not."""
+        """Return the strains, for `beyond`, of the first `count` samples up to a fault, and the fault."""
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause where the model does not hold that far, or farther, else ""."""
+        """Return a clause if a strain is beyond the model, else ""."""
 
     def fastest(self, samples: Any, i: int) -> str:
-        """Return where the sheet is fastest at sample i, in words."""
+        """Return the place of the largest speed of the sheet at sample i, in words."""
 
     def frame(self, samples: Any, i: int) -> np.ndarray:
         """Return the whole displacement (n, 3) [m] of sample i."""
@@ -58,17 +57,18 @@ class Observer(Protocol):
 
 @dataclass
 class Watch:
-    """What the samples of any run are watched for: energy from nowhere, strains beyond the model.
+    """Checks of a run's samples: a growing total energy, strains beyond the model.
 
-    Whatever dampers take, kinetic + elastic + potential − work never grows in an exact run. A growth from its
-    lowest value so far, by more than GROWN of the energy that goes round, ends the run. With what dampers
-    take, as the rule of integration sums it, the balance is constant; a departure either way by more than
-    TOLD is reported. Losses are what the rule takes (`History.numerical`) and end no run. Strains beyond a
-    model's limits end none either: the run that came to them says so, and from when on.
+    The sum kinetic + elastic + potential − work never grows in an exact run, with any dampers. A growth from
+    the lowest value so far by more than GROWN of the largest energy ends the run. The sum with the dissipated
+    energy, as the integrator computes it, is constant in an exact run; a departure by more than REPORTED is
+    reported. Losses are the integrator's own dissipation (`History.numerical`) and do not end a run. Nor do
+    strains beyond a model's limits: the status reports them, with the time of the first.
 
-    origin: the balance at the start [J]; lowest: kinetic + elastic + potential − work at a sample so far
-    [J]; largest: energy of any kind there [J]; off: the largest departure of the balance [J]; stretch: the
-    largest so far, or what else a model measures strains by; since: when that first was beyond the model [s].
+    origin: the balance at the start [J]. lowest: the least kinetic + elastic + potential − work so far [J].
+    largest: the largest energy of any kind so far [J]. off: the largest departure of the balance [J].
+    stretch: the largest stretch so far, or the model's other measure of strains. since: the time of the first
+    stretch beyond the model [s].
     """
 
     origin: float = np.nan
@@ -79,7 +79,7 @@ class Watch:
     since: float = np.nan
 
     def strained(self, times: np.ndarray, stretches: np.ndarray, beyond: Callable[[float], str]) -> None:
-        """Note how far the sheet is strained at samples (k,); beyond: a clause where that is too far."""
+        """Update the largest stretch by samples (k,); beyond: returns a clause for one beyond the model."""
         largest = max(stretches.tolist(), default=-1.0)
         if largest >= self.stretch:
             self.stretch = largest
@@ -87,18 +87,18 @@ class Watch:
                 self.since = float(times[[bool(beyond(one)) for one in stretches.tolist()].index(True)])
 
     def take(self, rows: np.ndarray) -> tuple[int, float]:
-        """Go on past samples (k, 6 or more), time, kinetic, elastic, potential and dissipated energy, work;
-        return how many there are before the first that is unsound, and the energy from nowhere then, over the
-        largest until then: nan where some number is none, and where all are sound."""
-        sound, grown, *kept = take(rows, self.origin, self.lowest, self.largest, self.off)
-        self.origin, self.lowest, self.largest, self.off = kept
-        return sound, grown
+        """Check samples (k, 6 or more): time, kinetic, elastic, potential and dissipated energy, work. Return
+        the number of sound samples before the first faulty one, and the growth of its energy over the largest
+        so far: nan if a number is not finite, or if all samples are sound."""
+        sound, growth, *state = take(rows, self.origin, self.lowest, self.largest, self.off)
+        self.origin, self.lowest, self.largest, self.off = state
+        return sound, growth
 
     def ending(self, outside: str, steps: str = "") -> tuple[Status, str]:
-        """Return the status of a run that came to its end, and what there is to say; outside: a clause on the
-        strains that went farthest beyond the model; steps: one on the steps."""
+        """Return the status and the message of a run that reached its end. outside: a clause on strains
+        beyond the model. steps: a clause on the steps."""
         notes = [f"from {number(self.since, '.4g')} s on {outside}"] if outside else []
-        if self.largest > 0.0 and self.off > TOLD * self.largest:
+        if self.largest > 0.0 and self.off > REPORTED * self.largest:
             share = number(100.0 * self.off / self.largest, ".2g")
             notes.append(
                 f"the energy balance is off by {share} % of the largest energy at some sample: energies are "
@@ -108,12 +108,12 @@ class Watch:
         return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(notes)
 
     def memory(self) -> np.ndarray:
-        """What a resumed run needs."""
+        """Return the numbers that a resumed run needs."""
         return np.array(list(vars(self).values()))
 
     @classmethod
     def recall(cls, memory: np.ndarray) -> Self:
-        """Take up what `memory` gave."""
+        """Restore the checks from the numbers of `memory`."""
         return cls(*memory.tolist())
 
 
@@ -121,7 +121,7 @@ class Watch:
 def take(
     rows: np.ndarray, origin: float, lowest: float, largest: float, off: float
 ) -> tuple[int, float, float, float, float, float]:
-    """Return what `Watch.take` does, and what is kept then."""
+    """Return the results of `Watch.take`, and the new state of the checks."""
     for k in range(len(rows)):
         row, most, finite = rows[k], largest, True
         for value in row:
@@ -140,31 +140,31 @@ def take(
 
 
 class Run(Generic[AnyState]):
-    """A run under way. shown: samples at which to keep a frame; progress: called with the time reached [s].
-    samples: taken, the start's too; spent: energies [J] dissipated and put in."""
+    """A run in progress. shown: numbers of the samples with a frame. progress: called with the time reached
+    [s]. samples: number of samples so far, with the start's. spent: dissipated energy and work so far [J]."""
 
     def __init__(
         self,
         method: MotionMethod[AnyState],
         observer: Observer,
         schedule: Schedule,
-        kept: FolderStore | MemoryStore,
+        store: FolderStore | MemoryStore,
         shown: Iterable[int],
         progress: Callable[[float], None] | None,
     ):
         self._method, self._observer, self._schedule = method, observer, schedule
-        self._kept, self._shown, self._progress = kept, set(shown), progress or (lambda time: None)
+        self._store, self._shown, self._progress = store, set(shown), progress or (lambda time: None)
         self.samples = self.steps = 0
         self.resumed_from, self.spent, self.watch = 0.0, np.zeros(2), Watch(largest=observer.least_energy)
 
     def finish(self, start: Callable[[], Advance[AnyState]]) -> tuple[Status, str]:
-        """Go on to the end, or to a fault, from the last checkpoint or the start: how it ended. start: the
-        state to begin in, with the work of what moves at once."""
+        """Run from the last checkpoint or the start to the end or a fault; return status and message. start:
+        makes the initial state, with the work of parts that move at once."""
         self._method.forget()
-        state, since = self._resumed() or self._passed(start())[0].state, 0
+        state, since = self._resume() or self._record_step(start())[0].state, 0
         while self.samples <= self._schedule.samples:
             try:
-                last = self._method.go(state, self._goal(state.time) - state.time)
+                last = self._method.go(state, self._next_end(state.time) - state.time)
             except (StepFailed, SingularMatrixError) as failure:
                 return Status.DIVERGED, f"at {state.time:.6g} s: {failure}"
             self.steps += last.steps
@@ -172,7 +172,7 @@ class Run(Generic[AnyState]):
             if self._method.adapts and since >= MOST_STEPS:
                 text = f"at {last.state.time:.6g} s: {since} steps without reaching the next sample"
                 return Status.STEP_LIMIT, f"{text}: add damping or fix the step"
-            before, (last, fault) = self.samples, self._passed(last)
+            before, (last, fault) = self.samples, self._record_step(last)
             if fault is not None:
                 return fault.status, fault.message
             state = last.state
@@ -183,8 +183,8 @@ class Run(Generic[AnyState]):
             self._progress(state.time)
         return self.watch.ending(self._observer.beyond(self.watch.stretch), self._method.notes())
 
-    def _goal(self, time: float) -> float:
-        """Where the next step ends at most [s]."""
+    def _next_end(self, time: float) -> float:
+        """Return the latest end of the next step [s]."""
         every, goal, span = self._schedule.every, self._schedule.samples, self._method.span
         if span is not None:
             goal = min(((self.samples - 1) // span + 1) * span, goal)
@@ -192,40 +192,39 @@ class Run(Generic[AnyState]):
         after = bisect(kinks, time + 1e-9 * every)
         return float(min([goal * every, *kinks[after : after + 1]]))
 
-    def _passed(self, last: Advance[AnyState]) -> tuple[Advance[AnyState], Fault | None]:
-        """Take the samples that a step passed; the step, its end at a sample's very time, and a fault."""
+    def _record_step(self, last: Advance[AnyState]) -> tuple[Advance[AnyState], Fault | None]:
+        """Take the samples within a step; return the step, with its end rounded to a sample, and a fault."""
         every, fault = self._schedule.every, None
         number = int(last.state.time / every + 1e-9)
         if number >= self.samples:
             if self._method.span is not None and abs(last.state.time - number * every) < 1e-9 * every:
                 last = replace(last, state=replace(last.state, time=number * every))  # type: ignore[type-var]
             samples = self._method.at(every * np.arange(self.samples, number + 1), last)
-            fault = self._take(samples)
+            fault = self._record_samples(samples)
         self.spent = self.spent + np.array([last.dissipated, last.work])
         return last, fault
 
-    def _take(self, samples: Any) -> Fault | None:
-        """Keep samples up to the first that means nothing, and why it does not; energies: since the step
-        began."""
+    def _record_samples(self, samples: Any) -> Fault | None:
+        """Store samples up to the first faulty one and return its fault; energies are the step's own."""
         observer, rows = self._observer, self._observer.rows(samples)
         rows[:, 4] += self.spent[0]
         rows[:, 5] += self.spent[1]
-        count, grown = self.watch.take(rows)
-        stretches, fault = observer.inspect(samples, count + isfinite(grown))
+        count, growth = self.watch.take(rows)
+        stretches, fault = observer.inspect(samples, count + isfinite(growth))
         count = count if fault is None else len(stretches)
         self.watch.strained(rows[:count, 0], stretches[:count], observer.beyond)
         if count < len(rows):
             if fault is None:
                 where = f"{observer.fastest(samples, count)}: use smaller steps"
-                share = f"by {100.0 * grown:.3g} % of the largest, fastest at {where}"
+                share = f"by {100.0 * growth:.3g} % of the largest, fastest at {where}"
                 grew = Fault(Status.DIVERGED, f"the energy has grown from nothing, {share}")
                 overflowed = Fault(Status.NON_FINITE, f"a number overflowed, first at {where}")
-                fault = grew if isfinite(grown) else overflowed
+                fault = grew if isfinite(growth) else overflowed
             fault = Fault(fault.status, f"at {rows[count, 0]:.6g} s {fault.message}")
         shown = fault is not None and fault.status is not Status.NON_FINITE
-        self._kept.append("samples", rows[: count + shown])
+        self._store.append("samples", rows[: count + shown])
         for due in sorted(self._shown.intersection(range(self.samples, self.samples + count))):
-            self._kept.append("frames", observer.frame(samples, due - self.samples)[None])
+            self._store.append("frames", observer.frame(samples, due - self.samples)[None])
         self.samples += count
         return fault
 
@@ -235,11 +234,11 @@ class Run(Generic[AnyState]):
         content |= {f"method_{name}": value for name, value in self._method.memory().items()}
         content |= {"taken": self.samples, "steps": self.steps, "spent": self.spent}
         content = {name: value for name, value in content.items() if value is not None}
-        self._kept.checkpoint(content | {"watch": self.watch.memory()})
+        self._store.checkpoint(content | {"watch": self.watch.memory()})
 
-    def _resumed(self) -> AnyState | None:
-        """The state of the last checkpoint, if there is one, and with it what the run had come to."""
-        checkpoint = self._kept.resume()
+    def _resume(self) -> AnyState | None:
+        """Return the state of the last checkpoint and restore the run's counts, or None without one."""
+        checkpoint = self._store.resume()
         if checkpoint is None:
             return None
 

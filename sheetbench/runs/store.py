@@ -1,11 +1,11 @@
-"""Where a run's samples go: to memory, or to a folder that grows while the run goes on and can be resumed.
+"""Storage of a run's samples: in memory, or in a folder that grows during the run and can be resumed.
 
 A folder holds `run.json` (its settings, version and source of the code), `samples.bin` (rows of float64, one
-a sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`. Those that are
-not appended to are replaced as a whole. The checkpoint counts the bytes of the others and holds their CRC-32.
-Rows after it are dropped on resuming and computed again, so that a resumed run gives the same file to the
-last bit; a run of other code is not gone on with. Memory does not grow with the duration. A folder has one
-writer at a time; links in it are not followed.
+a sample), `frames.bin` (displacements (rows, 3) float64, one a frame) and `checkpoint.npz`. Samples and
+frames are appended; the other files are replaced as a whole. The checkpoint holds the number of bytes and the
+CRC-32 of the appended files. Rows after a checkpoint are dropped on resuming and computed again, so that a
+resumed run gives an equal file to the last bit; a run of other code is refused. Memory does not grow with the
+duration. A folder has one writer at a time; links in it are not followed.
 """
 
 from __future__ import annotations
@@ -26,38 +26,37 @@ from sheetbench.files import NOT_FOLLOWED, only_writer, whole, writing
 from sheetbench.sources import source, version
 
 APPENDED = ("samples", "frames")
-Shapes = dict[str, tuple[int, ...]]  # of a row of each
-CHECKSUM = "{}_crc32"  # in the checkpoint, of what it counts of a file
+Shapes = dict[str, tuple[int, ...]]  # shape of a row of each
+CHECKSUM = "{}_crc32"  # key in the checkpoint, for the counted bytes of a file
 
 
 class MemoryStore:
-    """Samples in memory; nothing to resume. shapes: of a row of each of `APPENDED`."""
+    """Samples in memory, which cannot be resumed. shapes: of a row of each of `APPENDED`."""
 
     def __init__(self, shapes: Shapes):
-        self._kept = {name: [np.empty((0, *shape))] for name, shape in shapes.items()}
+        self._parts = {name: [np.empty((0, *shape))] for name, shape in shapes.items()}
 
     def append(self, name: str, rows: np.ndarray) -> None:
-        """Keep samples (k, width), or frames (k, rows, 3)."""
-        self._kept[name].append(rows.copy())
+        """Append samples (k, width), or frames (k, rows, 3)."""
+        self._parts[name].append(rows.copy())
 
     def checkpoint(self, content: dict[str, Any]) -> None:
-        """Nothing to keep."""
+        """Do nothing."""
 
     def resume(self) -> dict[str, Any] | None:
-        """There is nothing to resume from."""
+        """Return None: there is no checkpoint."""
         return None
 
     def rows(self, name: str) -> np.ndarray:
-        """All samples, (n, width), or frames, (n, rows, 3)."""
-        return np.concatenate(self._kept[name])
+        """Return all samples, (n, width), or frames, (n, rows, 3)."""
+        return np.concatenate(self._parts[name])
 
 
 class FolderStore:
-    """Samples in a folder, open while it is entered.
+    """Context manager of samples in a folder.
 
-    description: JSON-able description of the run, beside which the code is noted.
-    Entering raises BadInput for a folder of another run, one that another process writes to or that cannot be
-    written, and for damaged files.
+    description: data for JSON on the run, stored with the version and the digest of the code. Entering raises
+    BadInput for a folder with another run, in use or without permission to write, and for damaged files.
     """
 
     def __init__(self, folder: Path, shapes: Shapes, description: dict[str, Any]):
@@ -71,7 +70,7 @@ class FolderStore:
             self.folder.mkdir(parents=True, exist_ok=True)
         with ExitStack() as held:
             held.enter_context(only_writer(self.folder))
-            self._note()
+            self._check_description()
             self._held = held.pop_all()
         return self
 
@@ -81,13 +80,13 @@ class FolderStore:
     def append(self, name: str, rows: np.ndarray) -> None:
         """Append samples (k, width), or frames (k, rows, 3)."""
         written = np.ascontiguousarray(rows, dtype=float).tobytes()
-        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
+        with self._open(name, os.O_WRONLY | os.O_APPEND) as file:
             file.write(written)
         self._checksums[name] = zlib.crc32(written, self._checksums[name])
 
     def checkpoint(self, content: dict[str, Any]) -> None:
-        """Replace the checkpoint; what was appended so far is on disk before it is."""
-        sizes = {name: self._synced(name) for name in APPENDED}
+        """Replace the checkpoint, after all appended rows are on disk."""
+        sizes = {name: self._sync(name) for name in APPENDED}
         checksums = {CHECKSUM.format(name): self._checksums[name] for name in APPENDED}
         with whole(self.folder / "checkpoint.npz") as partial, partial.open("wb") as file:
             np.savez(file, **{**content, **sizes, **checksums})
@@ -95,85 +94,85 @@ class FolderStore:
             os.fsync(file.fileno())
 
     def resume(self) -> dict[str, Any] | None:
-        """The last checkpoint, with the files cut back to it; None, and empty files, where there is none.
+        """Return the last checkpoint and cut the files back to it; without one empty them and return None.
 
-        Raises BadInput for a damaged checkpoint, and for files that are missing, shorter than it says or not
-        what was written.
+        Raises BadInput for a damaged checkpoint, and for files that are missing, too short or altered.
         """
         path = self.folder / "checkpoint.npz"
         if not path.exists():
-            self._cut(dict.fromkeys(APPENDED, 0))
+            self._truncate(dict.fromkeys(APPENDED, 0))
             return None
         try:
             content = dict(np.load(path))
             sizes = {name: int(content[name]) for name in APPENDED}
             self._checksums = {name: int(content[CHECKSUM.format(name)]) for name in APPENDED}
         except (OSError, ValueError, LookupError, EOFError, zipfile.BadZipFile) as error:
-            raise self._damaged(path, f"is damaged ({error})") from None
+            raise self._damage_error(path, f"is damaged ({error})") from None
         for name, size in sizes.items():
-            place = self._file(name)
-            there = place.stat().st_size if place.exists() else 0
-            if there < size:
-                raise self._damaged(place, f"holds {there} of the {size} bytes that the checkpoint counts")
-            written = np.memmap(place, np.uint8, "r", shape=size).data if size else b""
+            appended = self._file(name)
+            present = appended.stat().st_size if appended.exists() else 0
+            if present < size:
+                fault = f"holds {present} of the {size} bytes that the checkpoint counts"
+                raise self._damage_error(appended, fault)
+            written = np.memmap(appended, np.uint8, "r", shape=size).data if size else b""
             if zlib.crc32(written) != self._checksums[name]:
-                raise self._damaged(place, "is not what the run wrote: its checksum is another")
-        self._cut(sizes)
+                raise self._damage_error(appended, "is not what the run wrote: its checksum is another")
+        self._truncate(sizes)
         return content
 
     def rows(self, name: str) -> np.ndarray:
-        """All samples, (n, width), or frames, (n, rows, 3), mapped from the file."""
+        """Return all samples, (n, width), or frames, (n, rows, 3), mapped from the file."""
         path, shape = self._file(name), self._shapes[name]
         if path.stat().st_size == 0:
             return np.empty((0, *shape))
         return np.memmap(path, dtype=float, mode="r").reshape(-1, *shape)
 
-    def _note(self) -> None:
-        """Note the run's settings, or see that those of the run that is kept here are the same."""
+    def _check_description(self) -> None:
+        """Write the run's description, or compare it with the description in the folder."""
         path = self.folder / "run.json"
         if not path.exists():
             if (self.folder / "checkpoint.npz").exists():
-                raise self._damaged(path, "is missing beside a checkpoint")
+                raise self._damage_error(path, "is missing beside a checkpoint")
             with whole(path) as partial:
                 text = json.dumps({"asked": self._description}, sort_keys=True)
                 partial.write_text(text, encoding="utf-8")
         try:
-            other = dict(json.loads(path.read_text(encoding="utf-8"))["asked"])
+            stored = dict(json.loads(path.read_text(encoding="utf-8"))["asked"])
         except (OSError, ValueError, TypeError, LookupError) as error:
-            raise self._damaged(path, f"is damaged ({error})") from None
-        own = self._description
-        off = [name for name in {**other, **own} if other.get(name) != own.get(name)]
-        if off and set(off) <= {"version", "source"}:
+            raise self._damage_error(path, f"is damaged ({error})") from None
+        requested = self._description
+        differing = [key for key in {**stored, **requested} if stored.get(key) != requested.get(key)]
+        if differing and set(differing) <= {"version", "source"}:
             raise BadInput(
                 f"{self.folder}: holds a run that another state of sheetbench's code began "
-                f"({other.get('version')}, source {other.get('source')}), which this one does not go on "
+                f"({stored.get('version')}, source {stored.get('source')}), which this one does not go on "
                 "with; choose another folder or remove this one"
             )
-        if off:
+        if differing:
             raise BadInput(
-                f"{self.folder}: holds another run (of another {', '.join(off)}); choose another folder or "
-                "remove this one"
+                f"{self.folder}: holds another run (of another {', '.join(differing)}); "
+                "choose another folder or remove this one"
             )
 
-    def _cut(self, sizes: dict[str, int]) -> None:
-        """Cut the files that are appended to down to so many bytes, making them where they are not."""
+    def _truncate(self, sizes: dict[str, int]) -> None:
+        """Cut the appended files to their sizes [bytes], or make them."""
         for name, size in sizes.items():
-            with self._opened(name, os.O_WRONLY | os.O_CREAT) as file:
+            with self._open(name, os.O_WRONLY | os.O_CREAT) as file:
                 os.ftruncate(file.fileno(), size)
 
-    def _damaged(self, path: Path, fault: str) -> BadInput:
+    def _damage_error(self, path: Path, fault: str) -> BadInput:
         return BadInput(f"{path}: {fault}; remove the folder {self.folder} to start the run over")
 
     def _file(self, name: str) -> Path:
         return self.folder / f"{name}.bin"
 
     @contextmanager
-    def _opened(self, name: str, flags: int) -> Iterator[BinaryIO]:
+    def _open(self, name: str, flags: int) -> Iterator[BinaryIO]:
         path = self._file(name)
         with writing(path), os.fdopen(os.open(path, flags | NOT_FOLLOWED, 0o666), "wb") as file:
             yield file
 
-    def _synced(self, name: str) -> int:
-        with self._opened(name, os.O_WRONLY | os.O_APPEND) as file:
+    def _sync(self, name: str) -> int:
+        with self._open(name, os.O_WRONLY | os.O_APPEND) as file:
             os.fsync(file.fileno())
             return os.fstat(file.fileno()).st_size

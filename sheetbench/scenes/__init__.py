@@ -1,4 +1,4 @@
-"""The question: sheet, material, supports, loads, probes, the catalogue; no solver, no answer."""
+"""The question to a model: sheet, material, supports, loads, probes, the catalogue; no solver, no answer."""
 
 from sheetbench.errors import BadInput, Implausible, SceneError
 from sheetbench.scenes.files import AnyScene, catalogue, load, scene_of

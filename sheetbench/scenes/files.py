@@ -1,4 +1,4 @@
-"""Scenes in files: the catalogue that comes with the package, and TOML files of one's own."""
+"""Scenes in files: the catalogue that comes with the package, and a user's own TOML files."""
 
 from __future__ import annotations
 
@@ -15,39 +15,62 @@ from sheetbench.scenes.meaning.plausibility import warn_of_slips
 from sheetbench.scenes.objects.sheet import DRAWN
 from sheetbench.scenes.scene import Scene
 
-MANY = 200  # files beside a missing one that are compared with its name
+MANY = 200  # files in the folder of a missing file that are compared with its name
 
 
 def catalogue() -> dict[str, Path]:
-    """Names and files of the scenes that come with the package."""
+    """Return the names and files of the scenes that come with the package.
+
+    Returns
+    -------
+    dict of str to Path
+        The TOML file of each scene by its name.
+    """
     folder = Path(str(resources.files("sheetbench.scenes") / "catalogue"))
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+    return {path.stem: path for path in sorted(folder.glob("*.toml"), key=lambda path: path.stem)}
 
 
 AnyScene = Scene | str | Path
 
 
 def scene_of(scene: AnyScene) -> Scene:
-    """The scene itself, or that of a catalogue name or a TOML file."""
+    """Return a scene as it is, or load it by its catalogue name or its TOML file."""
     return scene if isinstance(scene, Scene) else load(scene)
 
 
 def load(scene: str | Path) -> Scene:
-    """The scene of a catalogue name or of a TOML file.
+    """Read a scene from a TOML file or from the catalogue.
 
-    Raises SceneError, in one line that names the file, the key, the value and what is allowed. Warns
-    (Implausible) of what can be solved and is hardly meant.
+    Parameters
+    ----------
+    scene : str or Path
+        A catalogue name or a path.
+
+    Returns
+    -------
+    Scene
+        The scene, validated, in SI units.
+
+    Raises
+    ------
+    SceneError
+        In one line: the file, the key, its value and the allowed values.
+
+    Warns
+    -----
+    Implausible
+        A value that can be solved but is probably a slip, as a length in mm.
     """
     if not isinstance(scene, str | Path):
         raise SceneError(f"scene = {str(scene)[:40]}: a Scene, a name of the catalogue or a path is needed")
-    known = catalogue()
-    path = known.get(str(scene)) or Path(scene)
+    names = catalogue()
+    path = names.get(str(scene)) or Path(scene)
     try:
         data = tomllib.loads(read_text(path))
     except FileNotFoundError:
-        beside = [str(one) for one in sorted(path.parent.glob("*.toml"))[:MANY]]
-        near = did_you_mean(str(scene), [*beside, *known])
-        hint = f"did you mean {near}?" if near else f"those are {', '.join(known)}"
+        neighbours = [str(one) for one in sorted(path.parent.glob("*.toml"))[:MANY]]
+        near = did_you_mean(str(scene), [*neighbours, *names])
+        hint = f"did you mean {near}?" if near else f"those are {', '.join(names)}"
         raise SceneError(f"{scene}: no such file, and no catalogue scene of that name; {hint}") from None
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"{scene}: cannot be read as text: {foreign(error)}") from None

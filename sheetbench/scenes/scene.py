@@ -1,7 +1,7 @@
 """A scene: the question to a model, in raw physics (E, ν, ρ, geometry, supports, loads, probes; SI).
 
-A scene knows no solver. It is read from TOML (`sheetbench.scenes.files`) or built as `Scene(…)`, validated
-once, and frozen. Its keys are in `scenes.objects.fields`; what they mean, in the other files there.
+A scene depends on no solver. It is read from TOML (`sheetbench.scenes.files`) or built as `Scene(…)`,
+validated once, and frozen. Its keys are in `scenes.objects.fields`, their meaning in `scenes.meaning`.
 """
 
 from collections.abc import Iterator
@@ -31,7 +31,7 @@ class Scene(SceneFields, defer_build=False):
     def _faults(self) -> Iterator[object]:
         vars(self)["supports"] = region.with_rims(self)  # the scene is frozen, but not whole yet
         if not self.probes:
-            vars(self)["probes"] = self._usual_probes()
+            vars(self)["probes"] = self._default_probes()
         lx, ly = self.sheet.lengths
         for key, (x, y) in region.marked(self).items():
             off = f"{key} = {[x, y]} is off the sheet, which is 0 ≤ x ≤ {lx:g} m, 0 ≤ y ≤ {ly:g} m"
@@ -43,20 +43,20 @@ class Scene(SceneFields, defer_build=False):
             varied = f"layer: a laminate is the same all over, without {self.varied_by}"
             yield not self.homogeneous and varied
             yield misfit(self.layers, self.sheet, self.material)
-        yield self._unnatural()
+        yield self._natural_fault()
         yield mismatched(self.patches, self.material)
         law = f"springs: of a material with law = '{self.material.law}' they are calibrated; leave one out"
         yield self.springs and self.material.law and law
-        held = next((n for n, load in enumerate(self.loads, start=1) if load.hold), 0)
-        alone = 'has no effect without [initial] shape = "static", which lets the load go at t = 0'
-        yield held and not self.initial and f"load {held}.hold = true: {alone}"
+        number = next((n for n, load in enumerate(self.loads, start=1) if load.hold), 0)
+        idle = 'has no effect without [initial] shape = "static", which lets the load go at t = 0'
+        yield number and not self.initial and f"load {number}.hold = true: {idle}"
         yield from distances.conflicts(self)
         yield from corners.conflicts(self.actuators, self.supports, self.sheet)
 
-    def _usual_probes(self) -> dict[str, PlanPoint]:
+    def _default_probes(self) -> dict[str, PlanPoint]:
         """Return centre P1, middles P2 (y side) and P3 (x side) beside P4, the corner farthest from supports.
 
-        A point on an edge that is held would tell nothing: it lies a quarter of the sheet inside.
+        A point on a held edge would not move: it is placed a quarter of the sheet inside.
         """
         sheet, (lx, ly) = self.sheet, self.sheet.lengths
         supports = [support for support in self.supports if place(support) is None]
@@ -73,8 +73,8 @@ class Scene(SceneFields, defer_build=False):
         probes = {k: (moved.get((0, x), x), moved.get((1, y), y)) for k, (x, y) in points.items()}
         return {k: nearest(self.region, at) for k, at in probes.items()} if self.pierced else probes
 
-    def _unnatural(self) -> str:
-        """Return why a natural strain or a temperature cannot be, "" where it can."""
+    def _natural_fault(self) -> str:
+        """Return the reason why a natural strain or a temperature is impossible, "" if it is possible."""
         if not (given := self.natural_by):
             return ""
         if self.material.law is not None:
@@ -93,9 +93,9 @@ class Scene(SceneFields, defer_build=False):
         return ""
 
     def replace(self, **values: Any) -> Self:
-        """Return a copy with other values for some keys, those of its sheet and material too.
+        """Return a copy with other values for some keys of the scene, of its sheet or of its material.
 
-        Probes that nobody chose go with the sheet's outline. Raises SceneError for what makes no sense.
+        Default probes follow a new outline. Raises SceneError for values that are impossible.
         """
         parts = (self, self.sheet, self.material)
         keys = [*LISTS.values(), *(key for part in parts for key in type(part).model_fields)]
@@ -118,7 +118,7 @@ class Scene(SceneFields, defer_build=False):
         return summary.text(f"Scene {self.name}", in_words(self))
 
     def save(self, path: str | Path) -> None:
-        """Write the scene as TOML, from which `load` reads an equal one."""
-        from sheetbench.scenes.language.toml import to_toml  # a scene that is only solved need not know how
+        """Write the scene as TOML, from which `load` reads an equal scene."""
+        from sheetbench.scenes.language.toml import to_toml  # a scene that is only solved does not need it
 
         Path(path).write_text(to_toml(self), encoding="utf-8")

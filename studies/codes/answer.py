@@ -1,4 +1,4 @@
-"""The answer of the study: codes with numbers in use and with ours, the nearest at which cost, every row."""
+"""Answer of the study: codes with numbers in use and with ours, the front of error and cost, every row."""
 
 from __future__ import annotations
 
@@ -26,8 +26,7 @@ LEFT_OUT = (
 
 @dataclass(frozen=True)
 class Nearer:
-    """The best of the numbers in use beside ours, of a scene or the geometric mean of all that both
-    answer."""
+    """Best of the numbers in use and ours, of a scene or as the geometric mean over scenes."""
 
     code: Annotated[str, Column(prose=True)]
     scene: str
@@ -36,13 +35,13 @@ class Nearer:
 
     @property
     def nearer(self) -> Annotated[float, NUMBER(".1f", "times as near")]:
-        """How many times as near ours are."""
+        """Error with the best numbers in use over the error with ours."""
         return self.in_use / self.ours
 
 
 @dataclass(frozen=True)
 class Front:
-    """A row than which none is both quicker and nearer."""
+    """Row that no other row beats in both time and error."""
 
     scene: str
     code: Annotated[str, Column(prose=True)]
@@ -53,7 +52,7 @@ class Front:
 
 @dataclass(frozen=True)
 class SceneRow:
-    """A scene's error and time by recipe, in words."""
+    """Error and time of a scene by recipe, in words."""
 
     scene: str
     recipes: dict[str, str]
@@ -61,7 +60,7 @@ class SceneRow:
 
 @dataclass(frozen=True, repr=False)
 class Codes(Answer):
-    """Every file of results."""
+    """Results of every file."""
 
     results: tuple[CodeResults, ...]
 
@@ -77,15 +76,15 @@ class Codes(Answer):
         """Return the rows of codes that have numbers of both kinds."""
         rows = []
         for code in self.results:
-            both = code.in_use_and_ours()
-            rows += [Nearer(code.title, scene, *both[scene]) for scene in SCENES if scene in both]
-            if both:
-                means = map(geometric_mean, zip(*both.values(), strict=True))
-                rows.append(Nearer(code.title, f"mean of {len(both)} statics", *means))
+            pairs = code.in_use_and_ours()
+            rows += [Nearer(code.title, scene, *pairs[scene]) for scene in SCENES if scene in pairs]
+            if pairs:
+                means = map(geometric_mean, zip(*pairs.values(), strict=True))
+                rows.append(Nearer(code.title, f"mean of {len(pairs)} statics", *means))
         return rows
 
     def front(self, scene: str) -> list[Front]:
-        """Return the rows of a scene than which none is both quicker and nearer, the quickest first."""
+        """Return the rows of a scene that no other row beats in both time and error, the quickest first."""
         kept: list[Front] = []
         for title, row in sorted(self._answered(scene), key=lambda one: one[1].seconds or 0.0):
             assert row.error is not None and row.seconds is not None
@@ -123,17 +122,17 @@ class Codes(Answer):
 
 
 def _of_code(code: CodeResults) -> Table:
-    """Return scenes down, recipes across, below each suite the geometric mean of the scenes answered."""
+    """Return a table of scenes down, recipes across, below each suite the geometric mean."""
     cells = {(row.scene, row.recipe): row for row in code.rows}
     rows = []
     for suite in ("statics", "curves"):
         scenes = dict.fromkeys(row.scene for row in code.rows if CASES[row.scene].suite == suite)
-        rows += [SceneRow(s, {one: _cell(cells.get((s, one))) for one in code.recipes}) for s in scenes]
+        rows += [SceneRow(s, {name: _cell(cells.get((s, name))) for name in code.recipes}) for s in scenes]
         if len(scenes) > 1:
-            means = {one: _mean(code.errors(one, suite).values()) for one in code.recipes}
+            means = {name: _mean(code.errors(name, suite).values()) for name in code.recipes}
             rows.append(SceneRow(f"geometric mean, {suite}", means))
-    about = f"{code.licence}; {code.date}, {code.machine}; `{code.command}`"
-    return Table.of(SceneRow, rows, code.title, code.code, text=about)
+    caption = f"{code.licence}; {code.date}, {code.machine}; `{code.command}`"
+    return Table.of(SceneRow, rows, code.title, code.code, text=caption)
 
 
 def _cell(row: Trial | None) -> str:
@@ -144,30 +143,30 @@ def _cell(row: Trial | None) -> str:
 
 
 def _mean(errors: Iterable[float | None]) -> str:
-    known = [error for error in errors if error is not None]
-    return f"{percent(geometric_mean(known), '.3g')} of {len(known)}" if known else "–"
+    numbers = [error for error in errors if error is not None]
+    return f"{percent(geometric_mean(numbers), '.3g')} of {len(numbers)}" if numbers else "–"
 
 
 def codes() -> Codes:
-    """Return what the files of results say."""
+    """Return the results of all files."""
     return Codes(tuple(every_result()))
 
 
-def compose(found: Codes, style: FigureStyle = PLAIN) -> Figure:
-    """Return error against time of every recipe on both scenes: dots for ours, crosses for numbers in use,
-    lines for models and programs by their size."""
+def compose(answer: Codes, style: FigureStyle = PLAIN) -> Figure:
+    """Return error against time of every recipe on both scenes. Dots are our numbers, crosses numbers in use,
+    lines models and programs by their size."""
     figure = Figure(figsize=(style.width, 3.6), layout="constrained")
     axes, colours = figure.subplots(1, 2, sharey=True), matplotlib.colormaps["tab20"]
     for axis, scene in zip(axes, SCENES, strict=True):
-        for number_, code in enumerate(found.results):
+        for number_, code in enumerate(answer.results):
             rows = [row for row in code.rows if row.scene == scene and row.error is not None]
-            ladder = not code.in_use_and_ours()
+            is_ladder = not code.in_use_and_ours()
             for ours in (True, False):
-                some = [row for row in rows if row.recipe.startswith(OURS) is ours]
-                at = [row.seconds for row in some], [100.0 * (row.error or 0.0) for row in some]
-                mark = "o" if ours else ".-" if ladder else "x"
-                label = code.title if axis is axes[0] and ours is not ladder else None
-                axis.plot(*at, mark, color=colours(number_), ms=4, lw=0.8, label=label)
+                drawn = [row for row in rows if row.recipe.startswith(OURS) is ours]
+                values = [row.seconds for row in drawn], [100.0 * (row.error or 0.0) for row in drawn]
+                mark = "o" if ours else ".-" if is_ladder else "x"
+                label = code.title if axis is axes[0] and ours is not is_ladder else None
+                axis.plot(*values, mark, color=colours(number_), ms=4, lw=0.8, label=label)
         axis.set(
             xscale="log", yscale="log", title=scene, xlabel="time of a solve, or of a motion to rest [s]"
         )

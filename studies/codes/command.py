@@ -25,7 +25,7 @@ def command(
 ) -> None:
     """Show errors and times of other codes, with numbers in use and with ours, beside our models.
 
-    CODE=PYTHON runs what is missing or changed of a code; rows with the same inputs stay.
+    CODE=PYTHON runs missing or changed rows of a code; rows with unchanged inputs stay.
 
     Args:
         code (CODE=PYTHON, argument): newton=.venv-newton/bin/python; none: the stored rows.
@@ -33,9 +33,8 @@ def command(
         budget: Seconds after which no further run of a code begins.
         ladder (NAMES): Measure sizes of {LADDERS} on test 1.
         standing: Measure models on a suite, into the reference set's file.
-        model (MODELS): With --standing: as mujoco:grid=9.
-        suite (SUITE): With --standing: statics or curves.
-    """
+        model (MODELS): Models of --standing: as mujoco:grid=9.
+        suite (SUITE): Suite of --standing: statics or curves."""
     with output.open() as out:
         for text in code or ():
             name, _, python = text.partition("=")

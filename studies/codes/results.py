@@ -1,4 +1,4 @@
-"""Files of results, `results/codes/CODE.json`: what a code has answered of the reference set, and when.
+"""Files of results, `results/codes/CODE.json`: a code's answers to the reference set, with their date.
 
 A row is a scene by a recipe (numbers and a mesh). Files come with pull requests too, so they are checked.
 """
@@ -28,8 +28,8 @@ OURS = "ours"  # begins the names of recipes with our numbers
 
 @dataclass(frozen=True)
 class Trial:
-    """A scene by a recipe; error and seconds are None where there is no answer; inputs: the checksum of the
-    files that the code was given; moved: displacements of the scene's probes [m]."""
+    """A scene by a recipe; error and seconds are None without an answer. inputs: checksum of the code's input
+    files; moved: displacements of the scene's probes [m]."""
 
     scene: str
     recipe: str
@@ -44,7 +44,7 @@ class Trial:
 
 @dataclass(frozen=True)
 class CodeResults:
-    """A code and its rows."""
+    """Results of a code."""
 
     code: str
     title: str
@@ -56,7 +56,7 @@ class CodeResults:
 
     @property
     def recipes(self) -> list[str]:
-        """In the order of the rows."""
+        """Names of the recipes in the order of the rows."""
         return list(dict.fromkeys(row.recipe for row in self.rows))
 
     def errors(self, recipe: str, suite: str = "statics") -> dict[str, float | None]:
@@ -65,18 +65,18 @@ class CodeResults:
         return {row.scene: row.error for row in of}
 
     def in_use_and_ours(self) -> dict[str, tuple[float, float]]:
-        """Return by scenes that both answer the least error with numbers in use, and that with ours."""
-        others = [self.errors(one) for one in self.recipes if not one.startswith(OURS)]
-        found = {}
+        """Return, by scenes that both answer, the least error with numbers in use and the error with ours."""
+        others = [self.errors(recipe) for recipe in self.recipes if not recipe.startswith(OURS)]
+        pairs = {}
         for scene, error in self.errors(OURS).items():
-            in_use = [known for one in others if (known := one.get(scene)) is not None]
+            in_use = [value for errors in others if (value := errors.get(scene)) is not None]
             if error is not None and in_use:
-                found[scene] = (min(in_use), error)
-        return found
+                pairs[scene] = (min(in_use), error)
+        return pairs
 
 
 def write_results(code: str, title: str, licence: str, rows: Iterable[Trial], arguments: str) -> Path:
-    """Write a code's file of results; where it is. arguments: those of `study codes` that measured them."""
+    """Write a code's file of results, and return it; arguments: of the `study codes` that measured them."""
     machine = f"{platform.machine()}, Python {platform.python_version()}, one thread"
     date = datetime.now(UTC).date().isoformat()
     head = CodeResults(code, title, licence, date, machine, f"sheetbench study codes {arguments}", ())
@@ -88,23 +88,23 @@ def write_results(code: str, title: str, licence: str, rows: Iterable[Trial], ar
 
 
 def read_results(path: Path) -> CodeResults:
-    """Return a file's results. Raises BadInput that says what is wrong with it."""
+    """Return a file's results. Raises BadInput for a file that is not valid, with the reason."""
     try:
         document: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        found = CodeResults(**{**document, "rows": tuple(Trial(**row) for row in document["rows"])})
-        datetime.fromisoformat(found.date)
-    except (OSError, ValueError, KeyError, TypeError) as wrong:
-        raise BadInput(f"{path}: no file of results: {wrong!r}") from None
-    texts = (value for key, value in vars(found).items() if key != "rows")
-    if not found.rows or not all(isinstance(text, str) and text for text in texts):
+        results = CodeResults(**{**document, "rows": tuple(Trial(**row) for row in document["rows"])})
+        datetime.fromisoformat(results.date)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise BadInput(f"{path}: no file of results: {error!r}") from None
+    texts = (value for key, value in vars(results).items() if key != "rows")
+    if not results.rows or not all(isinstance(text, str) and text for text in texts):
         raise BadInput(f"{path}: texts and rows are not to be empty")
-    for row in found.rows:
+    for row in results.rows:
         numbers = [value for value in (row.error, row.seconds) if value is not None]
         if row.scene not in CASES or not all(0.0 <= value < np.inf for value in numbers):
             raise BadInput(f"{path}: {row.scene}, {row.recipe}: a scene of {', '.join(CASES)}, numbers ≥ 0")
         if row.status == "converged" and len(numbers) < 2:
             raise BadInput(f"{path}: {row.scene}, {row.recipe}: converged without an error or a time")
-    return found
+    return results
 
 
 def every_result() -> list[CodeResults]:

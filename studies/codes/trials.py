@@ -1,7 +1,8 @@
-"""Other codes with the numbers that people use and with ours: error and time of a scene, each in a process.
+"""Other codes with numbers in use and with ours: error and time of a scene, each in a process.
 
 A recipe is a mesh and coefficients. `sheetbench study codes CODE=PYTHON` runs the recipes of a code with a
-Python that has it, and writes results/codes/CODE.json. What crashes or takes too long costs its own row.
+Python that has it, and writes results/codes/CODE.json. A run that crashes or takes too long loses its own row
+only.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ def _stretching(scene: Scene) -> float:
 @dataclass(frozen=True)
 class Recipe:
     """Numbers and a mesh for a code. coefficients: ours, of a scene and a square's side; keys: the code's own
-    parameters of a scene; without either what `calibrate --for` gives."""
+    parameters of a scene; without either the numbers of `calibrate --for`."""
 
     name: str
     mesh: str | None = None
@@ -104,79 +105,79 @@ def _genesis(stretch: float, bending: float) -> dict[str, float]:
 
 def run_trials(code: str, python: str, seconds: float, budget: float, say: Callable[[str], None]) -> None:
     """Run every recipe of a code in every scene, with a Python that has it, and write the file of results.
-
-    seconds: of processor time, the limit of a run; budget: of the clock, after which no further run begins.
-    A row of the file that had the same inputs stays, but for one that a shorter limit ended. SCENES come
-    first, then statics before curves, ours before others, rows that are missing before changed ones, coarse
-    meshes before fine ones, and last the scenes in which a run has come to the limit.
-    """
+    seconds: of processor time, the limit of a run; budget: of the clock, after which no further run begins. A
+    row of the file with unchanged inputs stays, unless a shorter limit ended it. SCENES come first, then
+    statics before curves, our numbers before others, missing rows before changed ones, coarse meshes before
+    fine ones, and last the scenes in which a run has come to the limit."""
     require_choice("code", code, RECIPES)
     if which(python) is None:
         raise BadInput(f"{code}={python}: no such program; `make trials` makes the environments")
     path, ends = RESULTS / f"{code}.json", perf_counter() + budget
     old = read_results(path).rows if path.exists() else ()
     rows = {(row.scene, row.recipe): row for row in old}
-    late = {row.scene for row in rows.values() if row.status == Status.STEP_LIMIT}
+    at_limit = {row.scene for row in rows.values() if row.status == Status.STEP_LIMIT}
     order = [(name, recipe) for name in CALIBRATED for recipe in RECIPES[code]]
     first = sorted(
         order,
-        key=lambda one: (
-            one[0] not in SCENES,
-            one[0] in late,
-            CASES[one[0]].suite == "curves",
-            one[1] is not BEST,
-            (one[0], one[1].name) in rows,
-            one[1].squares,
+        key=lambda pair: (
+            pair[0] not in SCENES,
+            pair[0] in at_limit,
+            CASES[pair[0]].suite == "curves",
+            pair[1] is not BEST,
+            (pair[0], pair[1].name) in rows,
+            pair[1].squares,
         ),
     )
     for number, (name, recipe) in enumerate(first):
         if perf_counter() > ends:
-            say(f"{code}: {budget:g} s have passed; {len(order) - number} of {len(order)} rows not looked at")
+            say(f"{code}: {budget:g} s have passed; {len(order) - number} of {len(order)} rows not checked")
             break
         with TemporaryDirectory() as folder:
-            made = _write_files(CASES[name], code, recipe, Path(folder))
+            case_files = _write_files(CASES[name], code, recipe, Path(folder))
             inputs = _checksum(Path(folder))
-            if (known := rows.get((name, recipe.name))) and known.inputs == inputs and _final(known, seconds):
+            old_row = rows.get((name, recipe.name))
+            if old_row and old_row.inputs == inputs and _final(old_row, seconds):
                 continue
-            found = _trial(made, recipe.name, python, seconds, Path(folder), inputs)
-        say(f"{code}, {name}, {recipe.name}: {found.status}, {found.error}")
-        rows[name, recipe.name] = found
-        kept = [rows[name, recipe.name] for name, recipe in order if (name, recipe.name) in rows]
-        # what is killed leaves what it has
-        write_results(code, CODES[code].title, CODES[code].licence, kept, f"{code}=PYTHON")
+            trial = _trial(case_files, recipe.name, python, seconds, Path(folder), inputs)
+        say(f"{code}, {name}, {recipe.name}: {trial.status}, {trial.error}")
+        rows[name, recipe.name] = trial
+        finished = [rows[name, recipe.name] for name, recipe in order if (name, recipe.name) in rows]
+        # an interrupted run leaves its finished rows
+        write_results(code, CODES[code].title, CODES[code].licence, finished, f"{code}=PYTHON")
 
 
 def _write_files(case: Reference, code: str, recipe: Recipe, folder: Path) -> CodeSetup:
     scene, squares = case.scene, recipe.squares // (2 if case.suite == "curves" else 1)
     side = min(scene.sheet.lengths) / squares
     coefficients = recipe.coefficients and recipe.coefficients(scene, side)
-    given = recipe.keys and recipe.keys(scene)
-    made = setup(scene, code, squares, mesh=recipe.mesh, coefficients=coefficients, given=given)
-    for name, write in made.files().items():
+    parameters = recipe.keys and recipe.keys(scene)
+    case_files = setup(scene, code, squares, mesh=recipe.mesh, coefficients=coefficients, given=parameters)
+    for name, write in case_files.files().items():
         write(folder / name)
-    return made
+    return case_files
 
 
 def _checksum(folder: Path) -> str:
-    """Of the files' text, numbers to six digits: another processor's last digits make no other inputs."""
+    """Return the checksum of the files' text, numbers rounded to six digits. Last digits that depend on the
+    processor do not change it."""
     text = "".join(path.read_text(encoding="utf-8") for path in sorted(folder.iterdir()))
     return sha256(FLOAT.sub(lambda one: f"{float(one[0]):.6g}", text).encode()).hexdigest()[:12]
 
 
 def _final(row: Trial, seconds: float) -> bool:
-    """Whether a longer limit would not change it."""
+    """Return whether a longer limit would not change a row."""
     return row.status != Status.STEP_LIMIT or (row.seconds or 0.0) > 0.9 * seconds
 
 
-def _trial(made: CodeSetup, recipe: str, python: str, seconds: float, folder: Path, inputs: str) -> Trial:
-    script = str(folder / f"run_{made.code.name}.py")
+def _trial(files: CodeSetup, recipe: str, python: str, seconds: float, folder: Path, inputs: str) -> Trial:
+    script = str(folder / f"run_{files.code.name}.py")
     ended = run([python, script, str(seconds)], b"", 10.0 * seconds, variables=ONE_THREAD)
-    about = made.scene.name, recipe, made.cell.name
+    identity = files.scene.name, recipe, files.cell.name
     lines = [line for line in ended.answer.decode().splitlines() if line.startswith("{")]
     if ended.fault or not lines:
-        return Trial(*about, "failed", None, None, ended.fault or "no answer", inputs)
+        return Trial(*identity, "failed", None, None, ended.fault or "no answer", inputs)
     answer: dict[str, Any] = json.loads(lines[-1])
-    moved = np.array([answer["probes"][probe] for probe in made.scene.probes])
-    off = error(moved, CASES[made.scene.name].values) if answer["status"] == "converged" else None
-    shown = [[float(f"{value:.6g}") for value in u] for u in moved.tolist()] if off is not None else None
-    return Trial(*about, answer["status"], off, answer["solve_seconds"], "", inputs, shown)
+    moved = np.array([answer["probes"][probe] for probe in files.scene.probes])
+    miss = error(moved, CASES[files.scene.name].values) if answer["status"] == "converged" else None
+    shown = [[float(f"{value:.6g}") for value in u] for u in moved.tolist()] if miss is not None else None
+    return Trial(*identity, answer["status"], miss, answer["solve_seconds"], "", inputs, shown)

@@ -20,31 +20,30 @@ import numpy as np
 from sheetbench.scenes import Clamped, Gravity, Material, Scene, Sheet
 
 LENGTH, DENSITY, GRAVITY = 0.2, 1000.0, 9.81  # m, kg/m³, m/s²
-THICKNESS, SLENDER = 0.005, 0.002  # over length, of cantilevers and of the others
-WIDTH, NARROW = 0.25, 0.1  # over length, likewise
+THICKNESS, SLENDER = 0.005, 0.002  # over length, of cantilevers and of other strips
+WIDTH, NARROW = 0.25, 0.1  # over length, of cantilevers and of other strips
 POISSON = 0.35  # of strips on edge
-LEANS = 0.01  # rad, of those in the reference set
 TURNED = pi / 4
 TIP = "tip"
 
 
 def cantilever(load: float) -> Scene:
-    """A cantilever at Γ = load."""
+    """Return a cantilever at Γ = load."""
     return _strip("cantilever", load, (WIDTH, THICKNESS), 0.0, 0.0)
 
 
 def on_edge(load: float, width: float = NARROW, off: float = 0.0) -> Scene:
-    """A strip on edge at Γ* = load; off: how far its plane leans [rad]."""
+    """Return a strip on edge at Γ* = load; off: inclination of its plane [rad]."""
     return _strip("on-edge", load, (width, SLENDER), POISSON, pi / 2 - off)
 
 
 def bend_twist(load: float, width: float = NARROW) -> Scene:
-    """A strip whose plane is turned by 45°, at Γ = load."""
+    """Return a strip whose plane is turned by 45°, at Γ = load."""
     return _strip("bend-twist", load, (width, SLENDER), 0.0, TURNED)
 
 
 def way(scene: Scene, moved: Sequence[float] | np.ndarray) -> tuple[float, float, float]:
-    """The tip's displacement over the length: along the strip, down, and aside, which is square to both."""
+    """Return the tip's displacement over the length: along the strip, down, and aside, square to both."""
     assert scene.gravity is not None
     _, y, z = (value / GRAVITY for value in scene.gravity.acceleration)
     along, u, v = (float(value) / LENGTH for value in moved)

@@ -1,14 +1,13 @@
-"""Three problems whose answer depends on one number alone (`studies.master_curves.curves`), by lattices and
-shells, and by the codes of `studies.codes`.
+"""Three problems with one parameter (`curves`), solved by lattices, shells and other codes.
 
 **Cantilever**: drop over reach H/W against Γ. Exact: the heavy elastica θ'' = −Γ (1 − s) cos θ,
 θ(0) = θ'(1) = 0, solved by collocation.
 
-**Strip on edge**: the Γ* at which it leaves its plane. A narrow strip has 18.17 (1 − ν²)/√(1 + ν), of
-(q L³) = 12.85 √(EI·GJ) (Timoshenko and Gere); wider ones are found here, by bisection for the largest stable
-load. One that leans leaves it earlier, and how far its tip goes aside is a curve of any code.
+**Strip on edge**: the Γ* at which it leaves its plane. A narrow strip has 18.17 (1 − ν²)/√(1 + ν), from
+(q L³) = 12.85 √(EI·GJ) (Timoshenko and Gere); wider strips are computed by bisection for the largest stable
+load. A leaning strip leaves its plane earlier, and its tip's way aside is a curve for any code.
 
-**Bending and twisting**: how far the tip drops and goes aside, over the length, against Γ. Exact, of a narrow
+**Bending and twisting**: the tip's drop and way aside, over the length, against Γ. Exact for a narrow
 strip: Kirchhoff's rod (`studies.master_curves.twist`).
 """
 
@@ -92,7 +91,7 @@ class Buckled:
 
 @dataclass(frozen=True)
 class Twisted:
-    """How far the tip of a turned strip goes, over its length."""
+    """Displacement of the tip of a turned strip, over its length."""
 
     load: Annotated[float, Column("Γ", form="g")]
     model: str
@@ -103,14 +102,14 @@ class Twisted:
 
     @property
     def error(self) -> Annotated[float, Column("difference", "", "%", 100.0, ".2f")]:
-        """The distance of both tips over the narrow strip's displacement."""
+        """Distance of both tips over the narrow strip's displacement."""
         miss = np.hypot(self.drop - self.narrow_drop, self.aside - self.narrow_aside)
         return float(miss / np.hypot(self.narrow_drop, self.narrow_aside))
 
 
 @dataclass(frozen=True)
 class Tip:
-    """A code's answer with our numbers to a curve of the reference set: the tip's way over the length."""
+    """Tip's displacement over the length, by a code with our numbers, on a curve of the reference set."""
 
     case: str
     code: str
@@ -122,7 +121,7 @@ class Tip:
 
 @dataclass(frozen=True, repr=False)
 class MasterCurves(Answer):
-    """The three curves."""
+    """Rows of the three curves."""
 
     drops: tuple[Drop, ...]
     buckled: tuple[Buckled, ...]
@@ -174,23 +173,23 @@ class MasterCurves(Answer):
     def document(self) -> dict[str, Any]:
         return {
             "cantilever": [{**asdict(drop), "error": drop.error} for drop in self.drops],
-            "buckling": [asdict(one) for one in self.buckled],
+            "buckling": [asdict(row) for row in self.buckled],
             "narrow": self.narrow,
-            "bend_twist": [{**asdict(one), "error": one.error} for one in self.twisted],
-            "codes": [asdict(one) for one in self.tips],
+            "bend_twist": [{**asdict(row), "error": row.error} for row in self.twisted],
+            "codes": [asdict(row) for row in self.tips],
         }
 
 
 def elastica(load: float) -> float:
-    """H/W of the heavy elastica."""
+    """Return H/W of the heavy elastica."""
     s, y = np.linspace(0.0, 1.0, 201), np.zeros((2, 201))
     for weight in np.geomspace(min(load, 0.1), load, 12):
 
         def slopes(at: np.ndarray, state: np.ndarray, weight: float = weight) -> np.ndarray:
             return np.vstack([state[1], weight * (1.0 - at) * np.cos(state[0])])
 
-        found = solve_bvp(slopes, lambda a, b: np.array([a[0], b[1]]), s, y, tol=1e-9, max_nodes=20000)
-        s, y = found.x, found.y
+        solution = solve_bvp(slopes, lambda a, b: np.array([a[0], b[1]]), s, y, tol=1e-9, max_nodes=20000)
+        s, y = solution.x, solution.y
     return float(np.trapezoid(np.sin(y[0]), s) / np.trapezoid(np.cos(y[0]), s))
 
 
@@ -207,14 +206,14 @@ def _tips() -> Iterator[Tip]:
 
 
 def _tip(scene: Scene, **settings: Any) -> tuple[float, float, float]:
-    """Along the strip, down and aside; nan without a stable equilibrium."""
+    """Return the tip's displacement along the strip, down and aside; nan without a stable equilibrium."""
     solution = _solve(scene, **settings)
     u = solution.displacement(scene.probe_points())[0]
     return way(scene, u if solution.status == "converged" else np.full(3, np.nan))
 
 
 def measure(progress: Callable[[str], None]) -> MasterCurves:
-    """Solve the three problems, and read what codes have found."""
+    """Solve the three problems, and read the answers of codes."""
     solved = tuple(_drops(progress)), tuple(_buckled(progress)), tuple(_twisted(progress))
     return MasterCurves(*solved, tuple(_tips()))
 
@@ -235,16 +234,16 @@ def _buckled(progress: Callable[[str], None]) -> Iterator[Buckled]:
             {"model": "shell", "elements": (16, across)},
             {"grid": (33, 2 * across + 1)},
         )
-        found = []
+        critical = []
         for settings in models:
             progress(f"strip on edge, width {width:g}: {settings.get('model', 'lattice')}")
             stable, unstable = 5.0, 40.0
             for _ in range(BISECTIONS):
                 middle = (stable + unstable) / 2.0
-                holds = _solve(on_edge(middle, width), **settings).status == "converged"
-                stable, unstable = (middle, unstable) if holds else (stable, middle)
-            found.append((stable + unstable) / 2.0)
-        yield Buckled(width, *found)
+                is_stable = _solve(on_edge(middle, width), **settings).status == "converged"
+                stable, unstable = (middle, unstable) if is_stable else (stable, middle)
+            critical.append((stable + unstable) / 2.0)
+        yield Buckled(width, *critical)
 
 
 def _twisted(progress: Callable[[str], None]) -> Iterator[Twisted]:
@@ -253,5 +252,5 @@ def _twisted(progress: Callable[[str], None]) -> Iterator[Twisted]:
         scene = bend_twist(load, TURNED_WIDTH)
         _, drop, aside = way(scene, LENGTH * tip(load, 0.0, TURNED))
         for name, settings in TWISTED.items():
-            _, own_drop, own_aside = _tip(scene, **settings)
-            yield Twisted(load, name, drop, own_drop, aside, own_aside)
+            _, model_drop, model_aside = _tip(scene, **settings)
+            yield Twisted(load, name, drop, model_drop, aside, model_aside)

@@ -1,12 +1,12 @@
-"""A narrow heavy strip that is clamped with its plane turned about its length: it bends and twists.
+"""Narrow heavy strip, clamped with its plane turned about its length: it bends and twists.
 
 Kirchhoff's rod (Love 1927, chapter 18) that bends about its width alone, with B = E h³/12 per width, and
-twists with G h³/3, 2/(1 + ν) times as much. With directors d (width, normal, tangent), arc s and moment m,
-lengths over L and moments per width over B/L:
+twists with G h³/3, 2/(1 + ν) times as much. The equations of directors d (width, normal, tangent), arc s and
+moment m, lengths over L and moments per width over B/L, are
 
     d′ = ω × d,   ω = (m·d₁) d₁ + (1 + ν)/2 (m·d₃) d₃,   m′ = −d₃ × Γ (1 − s) g,   m(1) = 0
 
-integrated from the tip, whose turn is found so that the clamp is as it is to be. Not turned it is the heavy
+integrated from the tip, whose turn follows from the condition at the clamp. Without a turn it is the heavy
 elastica; turned by π/2 it buckles at Timoshenko's load.
 """
 
@@ -21,16 +21,16 @@ CLAMPED = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])  # width
 
 
 def weight_direction(turned: float) -> np.ndarray:
-    """The direction of weight in the frame of a strip that is turned [rad] about its length."""
+    """Return the direction of weight in the frame of a strip that is turned [rad] about its length."""
     return np.array([0.0, -np.sin(turned), -np.cos(turned)])
 
 
 def tip(load: float, poisson: float, turned: float) -> np.ndarray:
-    """Displacement (3,) of the tip over the length at Γ = load."""
+    """Return the displacement (3,) of the tip over the length at Γ = load."""
     down, turn = weight_direction(turned), np.zeros(3)
 
     def from_tip(turn: np.ndarray, load: float) -> tuple[np.ndarray, np.ndarray]:
-        """Directors (3, 3) and place (3,) at the clamp of a strip whose tip has this turn and place 0."""
+        """Return directors (3, 3) and place (3,) at the clamp for a given turn of the tip, at 0."""
 
         def slopes(s: float, state: np.ndarray) -> np.ndarray:
             directors, moment = state[:9].reshape(3, 3), state[9:12]
@@ -48,8 +48,8 @@ def tip(load: float, poisson: float, turned: float) -> np.ndarray:
         return np.array([tangent[1], tangent[2], width[2]])
 
     for part in np.linspace(0.0, load, 4 + int(2.0 * load))[1:]:
-        found = root(missed, turn, (part,), tol=1e-8)
-        if not found.success:
-            raise ArithmeticError(f"strip at Γ = {part:g}: {found.message}")
-        turn = found.x
+        solution = root(missed, turn, (part,), tol=1e-8)
+        if not solution.success:
+            raise ArithmeticError(f"strip at Γ = {part:g}: {solution.message}")
+        turn = solution.x
     return -from_tip(turn, load)[1] - CLAMPED[2]

@@ -1,4 +1,4 @@
-"""The answer of the study: what was promised of an error beside what it is, and how often it was kept.
+"""Answer of the study: promised and actual errors, and the share of promises that were kept.
 
 bar              kept where the error of a component is within it; at least 95 % of components, and a
                  median bar of no more than five errors
@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -22,13 +22,23 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import NUMBER, PERCENT, Column, Table
 from sheetbench.scenes.language.summary import few
 
-GOALS = {"bar": (0.95, 5.0, np.inf), "expected error": (0.8, np.inf, 3.0), "advice": (0.95, np.inf, np.inf)}
+
+class Goal(NamedTuple):
+    """Required share kept, largest median of promised/actual, and bound of actual/promised."""
+
+    share: float
+    loosest: float = np.inf
+    farthest: float = np.inf
+
+
+GOALS = {"bar": Goal(0.95, loosest=5.0), "expected error": Goal(0.8, farthest=3.0), "advice": Goal(0.95)}
 
 
 @dataclass(frozen=True)
 class Promise:
-    """A promise about an error: by what, on what mesh or at which tolerance, where; promised and actual
-    error, shares of the largest displacement; cost: of an advised model over the cheapest that is within."""
+    """Promise about an error: by which rule, on which mesh or at which tolerance, where. promised and actual
+    error are shares of the largest displacement; cost: time of an advised model over the cheapest model
+    within the tolerance."""
 
     promise: str
     at: str
@@ -49,13 +59,13 @@ class Promise:
 
     @property
     def kept(self) -> bool:
-        """Whether it was kept."""
+        """Whether the promise was kept."""
         return 0.5 < self.ratio < 2.0 if self.promise == "expected error" else self.ratio <= 1.0
 
 
 @dataclass(frozen=True)
 class Share:
-    """How often a promise was kept."""
+    """Share of promises of one kind that were kept."""
 
     promise: str
     at: str
@@ -71,7 +81,7 @@ class Share:
 
 @dataclass(frozen=True)
 class Miss:
-    """The worst of a scene's promises that were not kept."""
+    """Worst broken promise of a scene."""
 
     promise: str
     at: str
@@ -83,7 +93,7 @@ class Miss:
 
 @dataclass(frozen=True, repr=False)
 class Promises(Answer):
-    """rows: of every promise; skipped: scenes that were replaced, and why."""
+    """Rows of every promise; skipped: scenes that were replaced, and why."""
 
     rows: tuple[Promise, ...]
     skipped: dict[str, str]
@@ -91,7 +101,7 @@ class Promises(Answer):
     file_name = "promises"
 
     def shares(self) -> list[Share]:
-        """Return a row per promise and where it was given: mesh, grid, tolerance."""
+        """Return a row per promise and mesh, grid or tolerance."""
         keys = dict.fromkeys((row.promise, row.at) for row in self.rows)
         return [share([row for row in self.rows if (row.promise, row.at) == key]) for key in keys]
 
@@ -136,14 +146,14 @@ class Promises(Answer):
 
 
 def share(rows: Sequence[Promise]) -> Share:
-    """Return how often promises of one kind were kept, of those that were given."""
+    """Return the share of promises of one kind that were kept, without rows that promise nothing."""
     given = [row for row in rows if row.promised is not None]
     kept = float(np.mean([row.kept for row in given])) if given else float("nan")
     ratios = np.array([row.ratio for row in given])
     loose = float(np.median(1.0 / ratios[ratios > 0.0])) if (ratios > 0.0).any() else float("nan")
     farthest, costs = float(ratios.max(initial=0.0)), [row.cost for row in given if row.cost is not None]
-    least, loosest, most = next(goal for name, goal in GOALS.items() if rows[0].promise.startswith(name))
-    met = kept >= least and not loose > loosest and farthest < most
+    goal = next(goal for name, goal in GOALS.items() if rows[0].promise.startswith(name))
+    met = kept >= goal.share and not loose > goal.loosest and farthest < goal.farthest
     cost = float(np.median(costs)) if costs else None
     scenes = list(dict.fromkeys(row.scene for row in given))
     chance = _chance([[row.kept for row in given if row.scene == scene] for scene in scenes])
@@ -153,10 +163,10 @@ def share(rows: Sequence[Promise]) -> Share:
 
 
 def _chance(scenes: Sequence[Sequence[bool]]) -> float:
-    """Return the standard error of the share that is kept, of what each scene kept; nan of fewer than two."""
+    """Return the standard error of the share that is kept, by scenes; nan of fewer than two."""
     n = len(scenes)
     if n < 2:
         return float("nan")
-    kept, given = np.array([sum(one) for one in scenes]), np.array([len(one) for one in scenes])
+    kept, given = np.array([sum(scene) for scene in scenes]), np.array([len(scene) for scene in scenes])
     off = kept - kept.sum() / given.sum() * given
     return float(np.sqrt(n / (n - 1) * np.sum(off**2)) / given.sum())

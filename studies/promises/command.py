@@ -27,15 +27,14 @@ def command(
 ) -> None:
     """Measure how often promised errors hold: the references' bars, expected errors, advice's tolerance.
 
-    Exit status 3 unless as many hold as required. With --out an interrupted study is resumed.
+    Exit status 3 unless as many hold as required. An interrupted study with --out is resumed.
 
     Args:
         part (NAMES): Only {PARTS}. All unless given.
         scenes (N): Scenes drawn, for bars half a minute of one processor each.
         seed (N): Seed of the scenes.
         model (NAMES): Bars of {REFERENCES}.
-        anew: Solve the stored scenes of expected errors again.
-    """
+        anew: Solve the stored scenes of expected errors again."""
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()
     with output.open() as out:
         if anew:
@@ -47,6 +46,6 @@ def command(
             if "expected" in parts:
                 rows += expected_errors()
             if "advice" in parts:
-                found, replaced = study.advised(count=scenes, seed=seed, **run)
-                rows, skipped = rows + found, skipped | replaced
+                advice, replaced = study.advised(count=scenes, seed=seed, **run)
+                rows, skipped = rows + advice, skipped | replaced
         out.show(Promises(tuple(rows), skipped))

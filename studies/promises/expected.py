@@ -1,10 +1,9 @@
-"""The expected error of a lattice's grid on a hundred stored scenes, beside the true one.
+"""Expected error of a lattice's grid on a hundred stored scenes, beside the true one.
 
-`results/promises.json` has every scene (some that an earlier rule by the layers' widths got wrong, eight that
-were drawn up by somebody else, the catalogue, the transfer study's and fifty drawn at random), and the
-displacements [m] of its probes: by the shell of 16 elements along the shorter side, and by the lattices of 5,
-9 and 17 masses and the finer ones that the estimate takes. The estimates are computed from these by the rule
-of today.
+`results/promises.json` has every scene (some on which an earlier rule by the layers' widths failed, eight by
+another author, the catalogue, the transfer study's and fifty drawn at random), and the displacements [m] of
+its probes: by the shell of 16 elements along the shorter side, and by the lattices of 5, 9 and 17 masses and
+the finer ones that the estimate takes. The estimates are computed from the displacements by the present rule.
 """
 
 from __future__ import annotations
@@ -47,9 +46,9 @@ def solve_again(say: Callable[[str], None]) -> None:
         say(name)
         scene = row["scene"]
         grids = [grid_of(scene.sheet, n) for n in GRIDS]
-        wanted = sorted({*grids, *(finer_grid(grid) for grid in grids)})
+        needed_grids = sorted({*grids, *(finer_grid(grid) for grid in grids)})
         shell = _answer(scene, solve(resolve(scene, Elements("shell", ELEMENTS))))
-        answers = {"shell": shell, "lattices": [lattice(scene, grid) for grid in wanted]}
+        answers = {"shell": shell, "lattices": [lattice(scene, grid) for grid in needed_grids]}
         rows.append({name: {"group": row["group"], "scene": scene.document(), **answers}})
     write_text(STORED, "{\n" + ",\n".join(json.dumps(row)[1:-1] for row in rows) + "\n}\n")
 
@@ -69,21 +68,20 @@ def _answer(scene: Scene, solution: Solution) -> Row:
 
 
 def expected_errors() -> Iterator[Promise]:
-    """Return a row for every grid of a scene on which there is a true error; promised: None without an
-    estimate."""
+    """Yield a row for every grid of a scene with a true error; promised is None without an estimate."""
     for name, row in stored().items():
-        by_grid = {tuple(one["grid"]): one for one in row["lattices"]}
+        by_grid = {tuple(answer["grid"]): answer for answer in row["lattices"]}
         for masses in GRIDS:
             grid = grid_of(row["scene"].sheet, masses)
             coarse, fine = by_grid[grid], by_grid[finer_grid(grid)]
             if not row["shell"]["status"] == coarse["status"] == "converged":
                 continue
-            u, finer, truth = (np.array(one["probes"]) for one in (coarse, fine, row["shell"]))
+            u, finer, truth = (np.array(answer["probes"]) for answer in (coarse, fine, row["shell"]))
             promised = None
-            alike = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
-            if alike and resolves(row["scene"], finer_grid(grid)):
+            same_branch = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
+            if same_branch and resolves(row["scene"], finer_grid(grid)):
                 ratio = prod(n - 1 for n in fine["grid"][:2]) / prod(n - 1 for n in grid[:2])
-                found = grid_error(u, finer, ratio, fine["stretch"])
-                promised = None if isinstance(found, str) else found
+                estimate = grid_error(u, finer, ratio, fine["stretch"])
+                promised = None if isinstance(estimate, str) else estimate
             if (actual := error(u, truth)) is not None:
                 yield Promise("expected error", f"{masses} masses", name, row["group"], promised, actual)

@@ -1,10 +1,10 @@
-"""Scenes drawn at random in the scene language, the same for the same seed.
+"""Scenes drawn at random in the scene language, reproducible by their seed.
 
-Shorter side a 0.05 to 0.5 m, the other up to 1.6 a, h/a 0.003 to 0.05, ν 0 to 0.49; E such that the load
-number q a³/D is 0.03 to 10, q the weight per area, as far as ρ g a/E ≤ 0.03. Fourteen arrangements of
+Shorter side a 0.05 to 0.5 m, the other up to 1.6 a, h/a 0.003 to 0.05, ν 0 to 0.49; E gives a load
+number q a³/D of 0.03 to 10, q the weight per area, as far as ρ g a/E ≤ 0.03. Fourteen arrangements of
 supports in turn, turned to any side of the sheet: one, two, three and four edges clamped, hinged or held,
 clamps tilted and bent, edges moved; seven kinds of load at random: the weight, upright or slanting, a
-pressure, forces at a point or along a free edge, moments. A third of the sheets or so are weightless. Probes
+pressure, forces at a point or along a free edge, moments. About a third of the sheets are weightless. Probes
 are the scene's own four and two more anywhere.
 """
 
@@ -28,7 +28,7 @@ Part = dict[str, Any]
 
 
 def drawn_scenes(seed: int = SEED) -> Iterator[Scene]:
-    """Scenes without end."""
+    """Yield scenes without end."""
     random = np.random.default_rng(seed)
     number = 0
     while True:
@@ -71,7 +71,7 @@ def _log(random: np.random.Generator, low: float, high: float) -> float:
 
 
 def _either(random: np.random.Generator, low: float, high: float) -> float:
-    """Of either sign."""
+    """Return a random number of either sign with a magnitude between two bounds."""
     return float(random.choice([-1.0, 1.0]) * random.uniform(low, high))
 
 
@@ -109,7 +109,7 @@ def _on_a_rail(random: np.random.Generator, edges: Edges, sides: tuple[float, fl
 
 
 def _moved(random: np.random.Generator, edges: Edges, sides: tuple[float, float]) -> Part:
-    """The edge opposite a clamp lifted, pulled outwards and turned about itself."""
+    """Return a clamp, and the opposite edge lifted, pulled outwards and turned about itself."""
     moved = EDGES[edges[2]]
     length = sides[moved.normal_axis]
     pull = random.uniform(0.0, 0.005) * length * np.array(moved.outward)
@@ -137,7 +137,7 @@ ARRANGEMENTS: tuple[Callable[..., Part], ...] = (
 def _loads(
     random: np.random.Generator, sides: tuple[float, float], per_area: float, free: Sequence[str]
 ) -> Part:
-    """The weight and loads of its size; per_area: weight [N/m²]; free: edges that nothing holds."""
+    """Return the weight and loads of its size; per_area: weight [N/m²]; free: free edges."""
     slant, turn = random.uniform(0.1, 1.0), random.uniform(0.0, 2.0 * np.pi)
     sideways = np.sin(slant) * np.array([np.cos(turn), np.sin(turn)])
     upright = {"acceleration": [0.0, 0.0, -GRAVITY]}

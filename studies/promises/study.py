@@ -1,12 +1,12 @@
-"""Are promises about errors kept? Bars of the references and advice on scenes drawn at random.
+"""Test of promises about errors: bars of the references and advice on scenes drawn at random.
 
 bar      of a component of the displacement at a probe, from the answers on n, ¾ n and ½ n elements
-         (`fem_reference.uncertainty`); the truth is the same model on a much finer mesh, graded towards the
+         (`fem_reference.uncertainty`); the truth is the model on a much finer mesh, graded towards the
          edges: a bar is about the mesh, not about the model. Components below `LEAST` of the largest
-         displacement are rounding, and what a support prescribes has no error: neither counts. The rule that
+         displacement are rounding, and prescribed components have no error: neither counts. The rule that
          makes the bars was set on scenes of other seeds (14, 27 and 53)
-advice   the tolerance that a choice was requested for; the truth is the shell. Its time is compared with that
-         of the cheapest of a dozen rows within the tolerance, all of whole sheets
+advice   the tolerance that a choice was requested for; the truth is the shell. The choice's time is
+         compared with the cheapest of a dozen rows within the tolerance, all of whole sheets
 
 A scene on which a model does not converge on every mesh is replaced by the next one drawn.
 """
@@ -45,47 +45,45 @@ def bars(
     store: Store, count: int = SCENES, models: Sequence[str] = MODELS, meshes: Sequence[int] = MESHES,
     truth: Mapping[str, int] = TRUTH, seed: int = SEED, **how: Unpack[CampaignKeywords],
 ) -> tuple[list[Promise], dict[str, str]]:  # fmt: skip
-    """Return the bars of the models on the meshes on `count` drawn scenes, and which scenes were replaced and
-    why. truth: elements of the truth by model."""
+    """Return the bars of the models on the meshes on `count` drawn scenes, and the replaced scenes with the
+    reason. truth: elements of the truth by model."""
     sizes = sorted({n for mesh in meshes for n in coarser(mesh) if isinstance(n, int)})
-    wanted = [(model, n) for model in models for n in (*sizes, truth[model])]
-    found: list[Promise] = []
-    solved, skipped = _drawn(store, count, wanted, truth, seed, **how)
+    solves = [(model, n) for model in models for n in (*sizes, truth[model])]
+    promises: list[Promise] = []
+    solved, skipped = _drawn(store, count, solves, truth, seed, **how)
     for scene, rows in solved:
         for model in models:
             for n in meshes:
                 of_mesh = [rows[model, m] for m in coarser(n) if isinstance(m, int)]
-                found += measured(scene, f"{model} {n}", of_mesh, rows[model, truth[model]])
-    return found, skipped
+                promises += measured(scene, f"{model} {n}", of_mesh, rows[model, truth[model]])
+    return promises, skipped
 
 
 def _drawn(
-    store: Store, count: int, wanted: Sequence[tuple[str, int]], truth: Mapping[str, int], seed: int,
+    store: Store, count: int, solves: Sequence[tuple[str, int]], truth: Mapping[str, int], seed: int,
     **how: Unpack[CampaignKeywords],
 ) -> tuple[list[tuple[Scene, Row]], dict[str, str]]:  # fmt: skip
-    """Return drawn scenes with what is wanted of them, and the scenes that were replaced.
-
-    The truth is graded towards the edges, of the plate by request. Raises RuntimeError where every solve of a
-    draw fails, as after the code has changed under a run: other scenes would too.
-    """
-    endless, skipped, solved = drawn_scenes(seed), dict[str, str](), list[tuple[Scene, Row]]()
-    specs = [Elements(model, n, graded=(model, n) == ("plate", truth[model]) or None) for model, n in wanted]
+    """Return drawn scenes with the requested solves of each, and the scenes that were replaced. The truth is
+    graded towards the edges, of the plate by request. Raises RuntimeError where every solve of a draw fails,
+    as after the code has changed under a run: other scenes would too."""
+    scenes, skipped, solved = drawn_scenes(seed), dict[str, str](), list[tuple[Scene, Row]]()
+    specs = [Elements(model, n, graded=(model, n) == ("plate", truth[model]) or None) for model, n in solves]
     while len(solved) < count:
-        drawn = list(islice(endless, count - len(solved)))
+        drawn = list(islice(scenes, count - len(solved)))
         done = sweep([Ask(scene, spec) for scene in drawn for spec in specs], store, **how)
-        if all(one.status == Status.FAILED for one in done):
+        if all(finished.status == Status.FAILED for finished in done):
             raise RuntimeError(done[0].message)
         for i, scene in enumerate(drawn):
-            own = done[i * len(wanted) : (i + 1) * len(wanted)]
-            if failure := next((one.ending for one in own if not one.stable), None):
+            of_scene = done[i * len(solves) : (i + 1) * len(solves)]
+            if failure := next((finished.ending for finished in of_scene if not finished.stable), None):
                 skipped[scene.name] = failure
             else:
-                solved.append((scene, dict(zip(wanted, own, strict=True))))
+                solved.append((scene, dict(zip(solves, of_scene, strict=True))))
     return solved, skipped
 
 
 def measured(scene: Scene, at: str, rows: Sequence[Solved], truth: Solved) -> Iterator[Promise]:
-    """Return the bars of the components that a model's rows on their meshes have."""
+    """Yield the bars of the components of a model's answers on its meshes."""
     uncertainty = limit(rows)
     assert uncertainty is not None
     size = float(np.max(np.abs(truth.u), initial=0.0))
@@ -107,37 +105,39 @@ def advised(
     store: Store, count: int = SCENES, compared: int = COMPARED, tolerances: Sequence[float] = TOLERANCES,
     truth: Mapping[str, int] = TRUTH, seed: int = SEED, **how: Unpack[CampaignKeywords],
 ) -> tuple[list[Promise], dict[str, str]]:  # fmt: skip
-    """Return the tolerances and errors of advice on `count` drawn scenes, on the first `compared` of them its
-    cost, and which scenes were replaced and why."""
+    """Return the tolerances and errors of advice on `count` drawn scenes, and the replaced scenes with the
+    reason. The first `compared` scenes also have its cost."""
     solved, skipped = _drawn(store, count, [("shell", truth["shell"])], truth, seed, **how)
     cases = [(number, scene, t) for number, (scene, _) in enumerate(solved) for t in tolerances]
     runs = [
         Run(f"{__name__}:advice", {"scene": s.document(), "tolerance": t}, f"{s.name} {t:g}", timed=True)
         for _, s, t in cases
     ]
-    found = []
-    for (number, scene, tolerance), one in zip(cases, carry_out(runs, store, **how), strict=True):
+    promises = []
+    for (number, scene, tolerance), run_end in zip(cases, carry_out(runs, store, **how), strict=True):
         actual, cost = float("inf"), None
-        if one.row.get("choice"):
-            choice = spec_of(one.row["choice"]["model"], one.row["choice"]["settings"])
+        if run_end.row.get("choice"):
+            choice = spec_of(run_end.row["choice"]["model"], run_end.row["choice"]["settings"])
             specs = [choice, *(rows_of(scene) if number < compared else ())]
             asks = [Ask(scene, spec, repeats=5 if number < compared else 0) for spec in specs]
-            (own, *rivals), (fine,) = sweep(asks, store, **how), solved[number][1].values()
-            off = error(own.u, fine.u) if own.usable else None
+            (choice_row, *rivals), (fine,) = sweep(asks, store, **how), solved[number][1].values()
+            off = error(choice_row.u, fine.u) if choice_row.usable else None
             actual = float("inf") if off is None else off
-            cost = _cost(own, rivals, tolerance, fine)
-        found.append(Promise("advice", f"{100.0 * tolerance:g} %", scene.name, "", tolerance, actual, cost))
-    return found, skipped
+            cost = _cost(choice_row, rivals, tolerance, fine)
+        promises.append(
+            Promise("advice", f"{100.0 * tolerance:g} %", scene.name, "", tolerance, actual, cost)
+        )
+    return promises, skipped
 
 
 def rows_of(scene: Scene) -> list[Spec]:
     """Return the dozen rows that advice is compared with."""
-    own = lattices(scene, ["3", "5", "9", "17"], ["consistent"]) + lattices(scene, ["5"], ["uniform"])
-    return [*own, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
+    specs = lattices(scene, ["3", "5", "9", "17"], ["consistent"]) + lattices(scene, ["5"], ["uniform"])
+    return [*specs, *references("plate", ["4"]), *references("shell", ["2", "3", "4", "6", "8", "12"])]
 
 
-def _cost(own: Solved, rivals: Sequence[Solved], tolerance: float, fine: Solved) -> float | None:
-    """Return the time of a choice over that of the cheapest rival within the tolerance, None without one."""
-    errors = [(one.seconds, error(one.u, fine.u)) for one in rivals if one.stable]
-    within = [time for time, off in errors if time and off is not None and off <= tolerance]
-    return own.seconds / min(within) if within and own.seconds else None
+def _cost(choice: Solved, rivals: Sequence[Solved], tolerance: float, fine: Solved) -> float | None:
+    """Return the time of a choice over the cheapest rival within the tolerance, None without one."""
+    errors = [(rival.seconds, error(rival.u, fine.u)) for rival in rivals if rival.stable]
+    times = [time for time, off in errors if time and off is not None and off <= tolerance]
+    return choice.seconds / min(times) if times and choice.seconds else None

@@ -1,7 +1,7 @@
 """The reference set as one archive for a repository of data: `python -m studies.reference_set.archive FILE`.
 
-Scenes, values with bars, forms, the whole set as JSON, licence, a README and checksums. The same set makes
-the same bytes: names in order, one date, one mode, no compression of zlib's own choice.
+Scenes, values with bars, forms, the whole set as JSON, licence, a README and checksums. Equal sets make
+equal bytes: names in order, one date, one mode, no compression, which depends on zlib's version.
 """
 
 from __future__ import annotations
@@ -33,15 +33,17 @@ DATE = (1980, 1, 1, 0, 0, 0)  # of every file, the first that a zip has
 
 
 def archive(path: Path) -> Path:
-    """Write the archive; where it is."""
-    shown, whole = Suite(None).report(), document()
-    known = references()
+    """Write the archive, and return the file."""
+    report, set_document = Suite(None).report(), document()
+    cases_by_name = references()
     with TemporaryDirectory() as folder:
-        for name, write in shown.attachments.items():
+        for name, write in report.attachments.items():
             write(Path(folder) / name)
         contents = {file.name: file.read_bytes() for file in Path(folder).iterdir()}
-    text = README.format(version=whole["version"], cases=len(known), licence=whole["licence"])
-    cases = next(table for table in shown.tables if table.name == "cases")
+    text = README.format(
+        version=set_document["version"], cases=len(cases_by_name), licence=set_document["licence"]
+    )
+    cases = next(table for table in report.tables if table.name == "cases")
     contents |= {
         "README.md": text.encode(),
         "suite.json": FILE.read_bytes(),
@@ -52,7 +54,7 @@ def archive(path: Path) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     with ZipFile(path, "w", ZIP_STORED) as out:
         for name, data in sorted(contents.items()):
-            entry = ZipInfo(f"sheet-set-{whole['version']}/{name}", DATE)
+            entry = ZipInfo(f"sheet-set-{set_document['version']}/{name}", DATE)
             entry.create_system, entry.external_attr = 3, 0o644 << 16
             out.writestr(entry, data)
     return path

@@ -1,16 +1,15 @@
-"""The reference set computed anew: `sheetbench study reference-set`, or `make suite`.
+"""Reference set computed anew: `sheetbench study reference-set`, or `make suite`.
 
 statics   the shell on n, ¾ n and ½ n elements: the finest answer, its bar by the grid convergence index
-          (`fem_reference.uncertainty`), and where it is not too dear the solid beside it
-motion    the moving shell; the bar of a component of a probe is the most, over time, that a mesh half as fine
-          and steps twice as long change it, added; the lattice beside it
+          (`fem_reference.uncertainty`), and where it is cheap enough the solid
+motion    the moving shell; the bar of a component of a probe is the largest change over time by a mesh half
+          as fine, plus the largest one by steps twice as long; also the lattice
 modes     the shell as in statics, and the solid
 curves    the shell as in statics
-natural   the shell as in statics, and the lattice beside it; so contact
+natural   the shell as in statics, and the lattice; contact too
 
-The scenes are those of the file: a new case is a row of name, suite, why and scene, of a motion duration.
-
-Where models stand on it is another study (`studies.codes.models`); those rows stay as they are.
+The file has the scenes: a new case is a row of name, suite, why and scene, for a motion also its duration.
+Errors of models on the set are another study (`studies.codes.models`); their rows stay unchanged.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -41,17 +40,28 @@ from sheetbench.scenes import Scene
 from sheetbench.sources import version
 
 ELEMENTS, ACROSS = 24, 8  # of the shell along the shorter side; of strips four times as long as wide
-CURVES = 20  # likewise: along edges that let twist go a layer decides when a strip buckles
-ROUNDED = 1e-6  # of the largest displacement: what seven digits leave
+CURVES = 20  # of the shell on curves, where the layer along edges decides when a strip buckles
+ROUNDED = 1e-6  # rounding of seven digits, over the largest displacement
 SOLID = 6  # elements
 SAMPLES = 60  # of a motion, after the start
-MOVING = 12, 3e-6  # elements of the moving shell along the shorter side, and error of a step; of strips half
-OTHERS = {  # where waves are short, and where a motion with many bends needs many steps
-    "corner-struck": (16, 2e-6),
-    "pressure-step": (16, 2e-6),
-    "harmonic-base": (8, 1e-5),
+
+
+class MovingMesh(NamedTuple):
+    """Elements of a moving shell along the shorter side (half as many of strips), and error of a step."""
+
+    elements: int
+    error: float
+
+
+MOVING = MovingMesh(12, 3e-6)
+OTHERS = {  # for short waves, and for a motion with many bends, which needs many steps
+    "corner-struck": MovingMesh(16, 2e-6),
+    "pressure-step": MovingMesh(16, 2e-6),
+    "harmonic-base": MovingMesh(8, 1e-5),
 }
-SHELLS: dict[str, Elements] = {  # of strips that bend along x alone, and of a patch whose sides are elements'
+SHELLS: dict[
+    str, Elements
+] = {  # of strips that bend along x alone, and of a patch with elements along its sides
     "bimetal-strip": (40, 8),
     "muscle-band": (36, 12),
     "quarter-turn": (24, 8),
@@ -66,7 +76,7 @@ FREQUENCIES = 6
 
 @dataclass(frozen=True)
 class Case:
-    """A scene of a suite; why: it is in the set; duration: of a motion [s]."""
+    """Scene of a suite; why: reason that it is in the set; duration: of a motion [s]."""
 
     name: str
     suite: str
@@ -76,15 +86,21 @@ class Case:
 
 
 def cases() -> list[Case]:
-    """Return the cases of the file, whether they have values or not."""
+    """Return the cases of the file, with or without values."""
     return [
-        Case(one["name"], one["suite"], one["why"], Scene.model_validate(one["scene"]), one.get("duration"))
-        for one in document()["cases"]
+        Case(
+            entry["name"],
+            entry["suite"],
+            entry["why"],
+            Scene.model_validate(entry["scene"]),
+            entry.get("duration"),
+        )
+        for entry in document()["cases"]
     ]
 
 
 def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> dict[str, Any]:
-    """The reference set as plain data; with a suite's name the others' values stay."""
+    """Return the reference set as plain data; with a suite's name the other suites' values stay."""
     makers = {"motion": motion, "modes": modes} | dict.fromkeys(AT_REST, statics)
     kept = {case["name"]: case for case in document()["cases"] if suite and case["suite"] != suite}
     computed = []
@@ -92,7 +108,7 @@ def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> 
         if case.name in kept:
             computed.append(kept[case.name])
             continue
-        began = perf_counter()
+        started = perf_counter()
         computed.append(
             {
                 "name": case.name,
@@ -103,15 +119,15 @@ def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> 
                 **makers[case.suite](case),
             }
         )
-        say(f"{case.name}: {perf_counter() - began:.1f} s")
-    made = document()["made_with"] if suite else {"sheetbench": version(), "machine": machine()}
-    head = {"version": VERSION, "licence": LICENCE, "made_with": made}
+        say(f"{case.name}: {perf_counter() - started:.1f} s")
+    made_with = document()["made_with"] if suite else {"sheetbench": version(), "machine": machine()}
+    head = {"version": VERSION, "licence": LICENCE, "made_with": made_with}
     rounded: dict[str, Any] = plain({**head, "cases": computed, "standing": document()["standing"]})
     return rounded
 
 
 def statics(case: Case) -> dict[str, Any]:
-    """Displacements [m] of the probes with their bars, and which codes were used."""
+    """Return displacements [m] of the probes with their bars, and the codes that were used."""
     elements = CURVES if case.suite == "curves" else SHELLS.get(case.name, _elements(case.scene))
     points = case.scene.probe_points()
     solution, bar = solve_with_bar(case.scene, points, "shell", elements)
@@ -126,8 +142,8 @@ def statics(case: Case) -> dict[str, Any]:
         judges.append({"model": "solid", "elements": [SOLID], "error": off, "status": str(solid.status)})
     return {
         "probes": {
-            name: {"u": _digits(u), "bar": _digits(np.maximum(by, least))}
-            for name, u, by in zip(case.scene.probes, bar.answer, bar.bar, strict=True)
+            name: {"u": _digits(u), "bar": _digits(np.maximum(probe_bar, least))}
+            for name, u, probe_bar in zip(case.scene.probes, bar.answer, bar.bar, strict=True)
         },
         "bar": max(bar.error, ROUNDED),
         "judges": judges,
@@ -135,7 +151,7 @@ def statics(case: Case) -> dict[str, Any]:
 
 
 def motion(case: Case) -> dict[str, Any]:
-    """Displacements [m] of the probes over time [s] with their bars."""
+    """Return displacements [m] of the probes over time [s] with their bars."""
     assert case.duration is not None
     duration, every = case.duration, case.duration / SAMPLES
     elements, step_error = OTHERS.get(case.name, MOVING)
@@ -143,19 +159,19 @@ def motion(case: Case) -> dict[str, Any]:
         elements //= 2
 
     def run(elements: int, error: float = step_error) -> History:
-        found = fem_reference.simulate(
+        history = fem_reference.simulate(
             case.scene, "shell", duration, elements=elements, every=every, error=error
         )
-        assert found.status is Status.CONVERGED, (case.name, found.message)
-        return found
+        assert history.status is Status.CONVERGED, (case.name, history.message)
+        return history
 
     fine = run(elements)
     others = {"mesh": run(elements // 2), "step": run(elements, LONGER * step_error)}
     changes = {
-        by: {name: np.abs(u - other.probes[name]).max(axis=0) for name, u in fine.probes.items()}
-        for by, other in others.items()
+        change_by: {name: np.abs(u - other.probes[name]).max(axis=0) for name, u in fine.probes.items()}
+        for change_by, other in others.items()
     }
-    bars = {by: largest(other, fine) for by, other in others.items()}
+    bars = {change_by: largest(other, fine) for change_by, other in others.items()}
     return {
         "time": _digits(fine.time),
         "probes": {
@@ -172,25 +188,25 @@ def motion(case: Case) -> dict[str, Any]:
 
 
 def _lattice(case: Case, reference: History) -> dict[str, Any]:
-    """How far the lattice is off a motion."""
+    """Return the lattice's error on a motion."""
     assert case.duration is not None
     springs = lumped.calibrate(case.scene.sheet, case.scene.material, grid=GRID)
-    found = lumped.simulate(case.scene, springs, case.duration, every=case.duration / SAMPLES)
-    off = largest(found, reference) if found.status is Status.CONVERGED else None
-    return {"model": "lumped", "grid": [GRID], "error": off, "status": str(found.status)}
+    history = lumped.simulate(case.scene, springs, case.duration, every=case.duration / SAMPLES)
+    off = largest(history, reference) if history.status is Status.CONVERGED else None
+    return {"model": "lumped", "grid": [GRID], "error": off, "status": str(history.status)}
 
 
 def _lattice_at_rest(case: Case, reference: np.ndarray) -> dict[str, Any]:
-    """How far the lattice is off displacements (n, 3) [m] of the probes."""
+    """Return the lattice's error against displacements (n, 3) [m] of the probes."""
     ask = Ask(case.scene, Lattice(GRID, "consistent"))
     row = task.solve(**ask.task.arguments)
-    found = Solved(ask, row["status"], row=row)
-    off = error(found.u, reference) if found.usable else None
-    return {"model": "lumped", "grid": [GRID], "error": off, "status": found.status}
+    solved = Solved(ask, row["status"], row=row)
+    off = error(solved.u, reference) if solved.usable else None
+    return {"model": "lumped", "grid": [GRID], "error": off, "status": solved.status}
 
 
 def modes(case: Case) -> dict[str, Any]:
-    """Natural frequencies [Hz] with their bars."""
+    """Return natural frequencies [Hz] with their bars."""
     meshes = coarser(ELEMENTS)
     answers = [_frequencies(case.scene, "shell", n) for n in meshes]
     bar = of_answers(case.scene, [a[:, None] for a in answers], meshes)
@@ -215,5 +231,5 @@ def _elements(scene: Scene) -> int:
 
 
 def _digits(values: np.ndarray) -> Any:
-    """Seven digits: more than any bar leaves certain."""
+    """Return values rounded to seven digits, more than any bar leaves certain."""
     return np.vectorize(lambda value: float(f"{value:.6e}"))(values).tolist()

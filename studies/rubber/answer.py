@@ -1,4 +1,4 @@
-"""The study's answer: tables of constants, of linear lattices and of the block, and their pictures."""
+"""Answer of the study: tables of constants, of linear lattices and of the block, and their pictures."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from studies.rubber.study import Constant, Square, Strip, blown, constants, curv
 
 @dataclass(frozen=True, repr=False)
 class Rubber(Answer):
-    """Rows by part; block: None where it was not requested."""
+    """Rows by part; block: only where it was requested."""
 
     file_name = "rubber"
 
@@ -30,7 +30,7 @@ class Rubber(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         top = f"Top of a clamped square blown up, {self.constants[0].material}"
-        found = (
+        parts = (
             Table.of(Constant, self.constants, "Constants and 95 % intervals", "constants", grouped=True),
             Table.of(
                 Strip, self.strips, "Error of the end's displacement at a stretch", "stretch", grouped=True
@@ -38,9 +38,9 @@ class Rubber(Answer):
             Table.of(Square, self.squares, top, "blown"),
         )
         if self.block is None:
-            return found
+            return parts
         return (
-            *found,
+            *parts,
             Table.of(Swing, self.block.swings, "A silicone block let go", "beam", grouped=True),
             Table.of(Fitted, self.block.fits, "E and loss factor of each run alone", "fitted", grouped=True),
         )
@@ -62,9 +62,8 @@ class Rubber(Answer):
 
 
 def measure(data: Path, block: bool, progress: Callable[[str], None]) -> Rubber:
-    """Fit the laws, pull, hang and blow up linear lattices; block: also let the block go.
-
-    Raises BadInput for a missing file."""
+    """Fit the laws, pull, hang and blow up linear lattices; block: also let the block go. Raises BadInput for
+    a missing file."""
     progress("tensile tests")
     fits = curves(data)
     first = next(iter(fits.values())).law

@@ -1,9 +1,8 @@
-"""A clamped silicone block let go, with three loads: what one damper does, what branches do, and what each
-run alone says of E and the loss factor.
+"""Clamped silicone block let go, with three loads: one damper, branches, E and loss factor of each run.
 
 Data: Dubied et al. 2022 (arXiv 2201.12560), srl-ethz/diffPD_sim2real, MIT: C3D files of 100 Hz. The tip is
-the mean of the first three markers, the base that of the others. A damped cosine through 2.5 s of a run has
-its frequency, damping ratio and drop. The shell (2 × 1 elements) has E and loss factor set once, at the
+the mean of the first three markers, the base the mean of the others. A damped cosine through 2.5 s of a run
+has its frequency, damping ratio and drop. The shell (2 × 1 elements) has E and loss factor set once, at the
 lightest load, or by `identify` from the first PERIODS of each run; the load is a rigid rod on the tip's edge.
 """
 
@@ -12,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from scipy.optimize import curve_fit
@@ -26,7 +25,20 @@ from sheetbench.answers.solution import Status
 from sheetbench.answers.table import Column
 from sheetbench.scenes import Chain, Clamped, Gravity, Material, Scene, Sheet
 
-RUNS = {"no load": ("gravity", 0.0, 7.7), "52 g": ("load52", 0.052, 4.0), "101 g": ("load101", 0.101, 3.3)}
+
+class Load(NamedTuple):
+    """Load of the block: its name in the files, mass [kg] and approximate frequency [Hz]."""
+
+    name: str
+    mass: float
+    frequency: float
+
+
+RUNS = {
+    "no load": Load("gravity", 0.0, 7.7),
+    "52 g": Load("load52", 0.052, 4.0),
+    "101 g": Load("load101", 0.101, 3.3),
+}
 RATE, THROUGH, PERIODS = 100.0, 250, 4.0  # 1/s; samples of a cosine, periods of a picture and of identify
 YOUNG, LOSS, SET_AT, BAND = 296e3, 0.100, 7.75, (3.0, 8.0)  # Pa, –, Hz, Hz
 POISSON, DENSITY, STEPS = 0.49, 1070.0, 60.0  # –, kg/m³, of a period of SET_AT
@@ -36,7 +48,7 @@ DAMPERS = ("one damper", "branches")
 
 @dataclass(frozen=True)
 class Swing:
-    """A damped cosine through a tip's motion."""
+    """Damped cosine through a tip's motion."""
 
     load: str
     what: str
@@ -47,7 +59,8 @@ class Swing:
 
 @dataclass(frozen=True)
 class Fitted:
-    """E and loss factor of a run; what is left of its tip by them, and by what the lightest load has set."""
+    """E and loss factor of a run; the tip's residual with both, and with the settings of the lightest
+    load."""
 
     load: str
     run: str
@@ -64,7 +77,7 @@ class Fitted:
 
 @dataclass(frozen=True)
 class Curve:
-    """A tip over time, (n,) each [s], [m]."""
+    """Tip over time, (n,) each [s], [m]."""
 
     load: str
     what: str
@@ -74,7 +87,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Block:
-    """What is measured and computed of the block."""
+    """Measured and computed motions of the block."""
 
     swings: tuple[Swing, ...]
     fits: tuple[Fitted, ...]
@@ -84,38 +97,38 @@ class Block:
 def cosine(
     time: np.ndarray, end: float, size: float, damping: float, omega: float, phase: float
 ) -> np.ndarray:
-    """end + size e^(−ζωt) cos(ωt + phase)."""
+    """Return end + size e^(−ζωt) cos(ωt + phase)."""
     return end + size * np.exp(-damping * omega * time) * np.cos(omega * time + phase)
 
 
 def measured(file: Path, first: float) -> tuple[Swing, np.ndarray, np.ndarray]:
-    """The swing of a run, and its times [s] and tip's displacements [m] from the letting go on; first: about
-    its frequency [Hz]."""
+    """Return the swing of a run, and from the release on its times [s] and tip's displacements [m]. first:
+    approximate frequency [Hz]."""
     along = read_markers(file).position[:, :, 0]
     tip = np.nanmean(along[:3], axis=0) - np.nanmean(along[3:], axis=0)
     moves = int(np.argmax(np.abs(tip - tip[:20].mean()) > 4e-3))
-    held, end = tip[moves - 12 : moves - 6].mean(), tip[-100:].mean()
+    held_tip, end = tip[moves - 12 : moves - 6].mean(), tip[-100:].mean()
     time = np.arange(len(tip)) / RATE
-    part = slice(moves, moves + THROUGH)
+    fitted_part = slice(moves, moves + THROUGH)
 
     def swinging(at: np.ndarray, size: float, damping: float, omega: float, phase: float) -> np.ndarray:
         return cosine(at, end, size, damping, omega, phase)
 
-    start = (held - end, 0.06, 2 * np.pi * first, 0.3)
+    start = (held_tip - end, 0.06, 2 * np.pi * first, 0.3)
     size, damping, omega, phase = curve_fit(
-        swinging, time[part] - time[moves], tip[part], start, maxfev=20000
+        swinging, time[fitted_part] - time[moves], tip[fitted_part], start, maxfev=20000
     )[0]
-    if size * (held - end) < 0.0:
+    if size * (held_tip - end) < 0.0:
         phase += np.pi
     let_go = time[moves] - ((phase + np.pi) % (2 * np.pi) - np.pi) / omega
     frequency = omega / (2 * np.pi)
     shown = (time > let_go) & (time < let_go + PERIODS / frequency)
-    swing = Swing("", "measured", frequency, damping, abs(held - end))
-    return swing, time[shown] - let_go, (tip[shown] - held) * np.sign(held - end)
+    swing = Swing("", "measured", frequency, damping, abs(held_tip - end))
+    return swing, time[shown] - let_go, (tip[shown] - held_tip) * np.sign(held_tip - end)
 
 
 def block(mass: float, material: Material) -> Scene:
-    """The block under its weight and that of the load [kg]."""
+    """Return the block under its own weight and the weight of a load [kg]."""
     line = mass / 0.03
     rods = [Chain("x1", segments=1, bending_stiffness=1.0, line_density=line, radius=1e-3)] if mass else []
     return Scene(
@@ -130,20 +143,22 @@ def block(mass: float, material: Material) -> Scene:
 
 
 def identified(mass: float, swing: Swing, time: np.ndarray, tip: np.ndarray) -> Identification:
-    """E and loss factor, of one damper at the run's frequency, with which the shell comes nearest to it."""
-    own = Material(YOUNG, POISSON, DENSITY, loss_factor=2.0 * swing.damping, frequency=swing.frequency)
+    """Return E and loss factor, of one damper at the run's frequency, of the shell nearest to the run."""
+    material = Material(YOUNG, POISSON, DENSITY, loss_factor=2.0 * swing.damping, frequency=swing.frequency)
     moved = np.full((len(time), 3), np.nan)
     moved[:, 2] = tip
     run = Displacements(np.tile(TIP, (len(time), 1)), moved, time)
-    return identify(block(mass, own), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    answer = identify(block(mass, material), run, ["young", "loss_factor"], model="shell", elements=ELEMENTS)
+    assert isinstance(answer, Identification)
+    return answer
 
 
 def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.ndarray]:
-    """The shell's swing under this load [kg], its times and tip's displacements."""
+    """Return the shell's swing under a load [kg], its times and tip's displacements."""
     material = Material(YOUNG, POISSON, DENSITY, loss_factor=LOSS, frequency=SET_AT)
     if what == "branches":
         branches = Material(YOUNG, POISSON, DENSITY, loss_factor=LOSS, band=BAND).branches
-        young = YOUNG / float(branches.storage_and_loss(SET_AT)[0])  # both as stiff where they are set
+        young = YOUNG / float(branches.storage_and_loss(SET_AT)[0])  # equal stiffness at SET_AT
         material = Material(young, POISSON, DENSITY, loss_factor=LOSS, band=BAND)
     step = 1.0 / (STEPS * SET_AT)
     history = fem_reference.simulate(
@@ -154,14 +169,13 @@ def computed(mass: float, what: str, end: float) -> tuple[Swing, np.ndarray, np.
     tip = history.probes["tip"][:, 2]
     rest = float(tip[-50:].mean())
     guess = (rest, -rest, 0.05, 2 * np.pi * SET_AT / (1.0 + 12.0 * mass), 0.0)
-    found = curve_fit(cosine, history.time, tip, guess, maxfev=20000)[0]
-    return Swing("", what, found[3] / (2 * np.pi), abs(found[2]), -found[0]), history.time, tip
+    fit = curve_fit(cosine, history.time, tip, guess, maxfev=20000)[0]
+    return Swing("", what, fit[3] / (2 * np.pi), abs(fit[2]), -fit[0]), history.time, tip
 
 
 def beam(data: Path, progress: Callable[[str], None]) -> Block:
-    """All runs, what is fitted to each, and the curves of the first of each load.
-
-    Raises BadInput for a missing file."""
+    """Return all runs, the values fitted to each, and the curves of each load's first run. Raises BadInput
+    for a missing file."""
     swings: list[Swing] = []
     fits: list[Fitted] = []
     curves: list[Curve] = []
@@ -173,13 +187,19 @@ def beam(data: Path, progress: Callable[[str], None]) -> Block:
         for run, (swing, time, tip) in runs.items():
             progress(f"{load}: run {run}, E and loss factor")
             swings.append(replace(swing, load=load, what=f"measured {run}"))
-            found = identified(mass, swing, time, tip)
-            values = [(u.value, *(u.interval or (np.nan, np.nan))) for u in found.unknowns.values()]
-            off = [rms(np.interp(time, at, there) - tip) for _, at, there in shells.values()]
-            left = found.residuals[:, 2]
-            fits.append(Fitted(load, run, *values[0], *values[1], rms(left), *off))
+            identification = identified(mass, swing, time, tip)
+            values = [(u.value, *(u.interval or (np.nan, np.nan))) for u in identification.unknowns.values()]
+            off = [
+                rms(np.interp(time, shell_time, shell_tip) - tip)
+                for _, shell_time, shell_tip in shells.values()
+            ]
+            residual = identification.residuals[:, 2]
+            fits.append(Fitted(load, run, *values[0], *values[1], rms(residual), *off))
             if run == "a":
-                curves += [Curve(load, "measured", time, tip), Curve(load, "fitted to it", time, tip + left)]
+                curves += [
+                    Curve(load, "measured", time, tip),
+                    Curve(load, "fitted to it", time, tip + residual),
+                ]
         for what, (swing, time, tip) in shells.items():
             swings.append(replace(swing, load=load))
             curves.append(Curve(load, what, time, tip))
@@ -187,5 +207,5 @@ def beam(data: Path, progress: Callable[[str], None]) -> Block:
 
 
 def rms(of: np.ndarray) -> float:
-    """Root of the mean square."""
+    """Return the root of the mean square."""
     return float(np.sqrt(np.mean(of**2)))

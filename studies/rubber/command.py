@@ -16,11 +16,10 @@ def command(
 ) -> None:
     """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them.
 
-    With --block also let a block of silicone go, with one damper and with branches.
+    The option --block also lets a block of silicone go, with one damper and with branches.
 
     Args:
-        data (DIR): Where silicone-tensile/, treloar/ and silicone-beam/ are.
-        block: Also the block of silicone-beam/ (C3D; half an hour).
-    """
+        data (DIR): Folder with silicone-tensile/, treloar/ and silicone-beam/.
+        block: Also the block of silicone-beam/ (C3D; half an hour)."""
     with output.open() as out:
         out.show(measure(data, block, out.progress))

@@ -1,4 +1,4 @@
-"""The pictures: error of a linear lattice against stretch, and the tips of the block."""
+"""Figures of the study: error of a linear lattice against stretch, and the tips of the block."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ DRAWN: dict[str, dict[str, Any]] = {
 }
 
 
-def of_lattices(found: Rubber, style: FigureStyle = PLAIN) -> Figure:
-    """Error against stretch: of strips pulled and hung, by material, and of the square blown up."""
+def of_lattices(answer: Rubber, style: FigureStyle = PLAIN) -> Figure:
+    """Return error against stretch: of strips pulled and hung, by material, and of the square blown up."""
     drawn = Figure(figsize=(style.width, 3.1), layout="constrained")
     axes = drawn.subplots(1, 3, sharey=True)
     for axis, way in zip(axes, ("pulled", "hung"), strict=False):
-        for strip in (strip for strip in found.strips if strip.way == way):
+        for strip in (strip for strip in answer.strips if strip.way == way):
             errors = 100.0 * np.array(list(strip.errors.values()))
             axis.plot(100.0 * np.array(STRETCHES), errors, ".-", ms=4, lw=1, label=strip.material)
-    stretch, error = 100.0 * np.array([(row.stretch, row.error) for row in found.squares], dtype=float).T
+    stretch, error = 100.0 * np.array([(row.stretch, row.error) for row in answer.squares], dtype=float).T
     axes[2].plot(stretch, error, ".-", ms=4, lw=1)
-    blown = f"blown up ({found.constants[0].material})"
+    blown = f"blown up ({answer.constants[0].material})"
     for axis, title in zip(axes, ("pulled", "hung", blown), strict=True):
         axis.axhspan(-2.0, 2.0, color="0.9", zorder=0, label="within 2 %")
         axis.set(title=title, xlabel="largest strain [%]")
@@ -43,7 +43,7 @@ def of_lattices(found: Rubber, style: FigureStyle = PLAIN) -> Figure:
 
 
 def of_block(block: Block, style: FigureStyle = PLAIN) -> Figure:
-    """Tips over time by load: measured, fitted to it, with one damper and with branches."""
+    """Return tips over time by load: measured, fitted, with one damper and with branches."""
     drawn = Figure(figsize=(style.width, 2.9), layout="constrained")
     loads = list(dict.fromkeys(curve.load for curve in block.curves))
     for axis, load in zip(drawn.subplots(1, len(loads), squeeze=False)[0], loads, strict=True):

@@ -1,12 +1,13 @@
-"""Four silicones and Treloar's rubber: their laws and constants, and where a linear lattice is off.
+"""Four silicones and Treloar's rubber: their laws and constants, and the error of a linear lattice.
 
-A lattice whose links are linear in their elongation (`consistent`) has E and ν of small strains alone. Beside
-the material's own law it is
+A lattice whose links are linear in their elongation (`consistent`) has E and ν of small strains alone. It is
+compared with the material's own law
     pulled      by the force at which the law is stretched by ε (a strip free to contract)
-    hung        under its own weight so heavy that the law is stretched by ε where it is held; strips of the
-                law are summed up, l = ∫ λ(ρ g s) ds
-    blown up    clamped all around, by a pressure; beside the shell of the same law
-The errors are those of the end's displacement, of the top's where it is blown up.
+    hung        under its own weight so heavy that the law is stretched by ε where it is held; the law's
+                length is the integral l = ∫ λ(ρ g s) ds
+    blown up    clamped all around, by a pressure, against the shell of the material's law
+
+Errors are of the end's displacement, of the top's where it is blown up.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Held, Material, Pressu
 
 SILICONES = ("Ecoflex 00-30", "Ecoflex 00-50", "Dragon Skin 10 MEDIUM", "Dragon Skin 30")
 TRELOAR = "Treloar 1944"
-UP_TO = 2.5  # stretch that soft robots see, and an elastomer's first law holds for
+UP_TO = 2.5  # largest stretch of soft robots, up to which an elastomer's first law holds
 STRETCHES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6)
 PRESSURES = (0.01, 0.05, 0.2, 0.5)  # over E
 SHEET, POISSON = Sheet(0.1, 0.05, 0.002), 0.499
@@ -40,7 +41,7 @@ SHEET, POISSON = Sheet(0.1, 0.05, 0.002), 0.499
 
 @dataclass(frozen=True)
 class Constant:
-    """A constant of a law, with its 95 % interval."""
+    """Constant of a law, with its 95 % interval."""
 
     material: str
     covered: Annotated[str, Column("to stretch")]  # a number would take the unit of its row
@@ -64,7 +65,7 @@ class Strip:
 
 @dataclass(frozen=True)
 class Square:
-    """The tops of a clamped square that is blown up: of the shell with its law, of a linear lattice."""
+    """Tops of a clamped square that is blown up: of the shell with its law, of a linear lattice."""
 
     pressure: Annotated[float, NUMBER(".3g", "p a/(E h)")]
     stretch: Annotated[float | None, PERCENT(".1f", "largest stretch")]
@@ -74,37 +75,37 @@ class Square:
 
 
 def curves(data: Path) -> dict[str, TensileFit]:
-    """The fits by name, of files under `data`: to UP_TO, of Treloar's rubber to its end."""
+    """Return the fits by name, from files under `data`: to UP_TO, of Treloar's rubber to its end."""
     files = {name: data / "silicone-tensile" / f"{name}.csv" for name in SILICONES}
     treloar = data / "treloar" / "uniaxial.csv"
     for file in (*files.values(), treloar):
         if not file.is_file():
             raise BadInput(f"{file}: not there; its source and licence: docs/rubber.md")
-    found = {name: identify_tensile(read(str(file), up_to=UP_TO)) for name, file in files.items()}
+    fits = {name: identify_tensile(read(str(file), up_to=UP_TO)) for name, file in files.items()}
     with TemporaryDirectory() as folder:
         headed = Path(folder) / "treloar.csv"
         text = treloar.read_text(encoding="utf-8").replace(",Stress", ",engineering_stress [MPa]", 1)
         headed.write_text(text, encoding="utf-8")
-        return {**found, TRELOAR: identify_tensile(str(headed))}
+        return {**fits, TRELOAR: identify_tensile(str(headed))}
 
 
 def constants(fits: dict[str, TensileFit]) -> Iterator[Constant]:
-    """A row per constant of the law that the data ask for."""
-    for name, found in fits.items():
-        assert found.law is not None
-        for key, value in found.law.constants.items():
+    """Yield a row per constant of the law that fits the data."""
+    for name, fit in fits.items():
+        assert fit.law is not None
+        for key, value in fit.law.constants.items():
             of = unit("" if key == "limit" else "Pa")
-            interval = found.law.intervals[key]
-            covered = f"{found.covered['uniaxial'][1]:.2f}"
-            yield Constant(name, covered, found.law.law, found.law.rms, key, of, value, *interval)
+            interval = fit.law.intervals[key]
+            covered = f"{fit.covered['uniaxial'][1]:.2f}"
+            yield Constant(name, covered, fit.law.law, fit.law.rms, key, of, value, *interval)
 
 
 def pulled_and_hung(fits: dict[str, TensileFit]) -> Iterator[Strip]:
-    """A row per material and way: the error of a `consistent` lattice at each stretch."""
-    for name, found in fits.items():
+    """Yield a row per material and way: the error of a `consistent` lattice at each stretch."""
+    for name, fit in fits.items():
         for way, error in (("pulled", pulled), ("hung", hung)):
-            assert found.law is not None
-            yield Strip(name, way, {f"{100 * at:g} %": error(found.law, at) for at in STRETCHES})
+            assert fit.law is not None
+            yield Strip(name, way, {f"{100 * at:g} %": error(fit.law, at) for at in STRETCHES})
 
 
 def _material(fit: Fit) -> Material:
@@ -127,14 +128,15 @@ def _strip(fit: Fit, **acting: object) -> Scene:
 
 
 def pulled(fit: Fit, stretch: float) -> float:
-    """The lattice's elongation over the law's, less 1."""
+    """Return the lattice's elongation over the law's, less 1, of a pulled strip."""
     pull = float(stress(fit.energy, "uniaxial", np.array([1.0 + stretch]))[0]) * SHEET.thickness
     scene = _strip(fit, loads=(EdgeLoad("x1", force_per_length=(pull, 0.0, 0.0)),))
     return _end(_lattice(scene)) / (stretch * SHEET.length_x) - 1.0
 
 
 def hung(fit: Fit, stretch: float) -> float:
-    """The same of a strip under its weight, stretched so where it is held."""
+    """Return the lattice's elongation over the law's, less 1, of a strip under its weight. stretch: of the
+    law where the strip is held."""
     top = float(stress(fit.energy, "uniaxial", np.array([1.0 + stretch]))[0])
 
     def elongation(share: float) -> float:
@@ -151,7 +153,7 @@ def hung(fit: Fit, stretch: float) -> float:
 
 
 def blown(fit: Fit) -> Iterator[Square]:
-    """A clamped square under pressures: the top's height in both, and the lattice's error."""
+    """Yield the top's height of a clamped square under pressures in both models, and the lattice's error."""
     laws = {"law": fit.law, **fit.constants} if fit.law != "neo-hookean" else {"law": fit.law}
     rubber = Material.model_validate({**_material(fit).model_dump(exclude_none=True), **laws})
     sheet = Sheet(0.1, 0.1, 0.002)
@@ -162,6 +164,6 @@ def blown(fit: Fit) -> Iterator[Square]:
         at = np.array([[0.05, 0.05]])
         truth = fem_reference.solve(scene, "shell", elements=6)
         plain = scene.replace(material=_material(fit))
-        both = (truth, _lattice(plain, (13, 13)))
-        tops = [float(s.displacement(at)[0, 2]) if s.comparable else float("nan") for s in both]
+        solutions = (truth, _lattice(plain, (13, 13)))
+        tops = [float(s.displacement(at)[0, 2]) if s.comparable else float("nan") for s in solutions]
         yield Square(share, truth.stretch, tops[0], tops[1], tops[1] / tops[0] - 1.0)

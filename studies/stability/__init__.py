@@ -1,1 +1,2 @@
-"""Where each model holds, degrades, refuses or breaks: the verb `stability` on published, extreme scenes."""
+"""Maps of the range in which each model holds, degrades, refuses or breaks, on published and extreme
+scenes."""

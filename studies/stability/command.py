@@ -18,15 +18,14 @@ def command(
 ) -> None:
     """Map where each model holds, degrades, refuses or fails: the verb on published and extreme scenes.
 
-    Neighbouring masses, units of stiffness and families of springs are varied too. With --out an interrupted
-    run is resumed.
+    Neighbouring masses, units of stiffness and families of springs are varied too. An interrupted run with
+    --out is resumed.
 
     Args:
-        part (NAMES): Only {PARTS}.
-    """
+        part (NAMES): Only {PARTS}."""
     if any(style.narrow for style in output.styles):
         raise BadInput("--figure: maps with their numbers need both columns; leave ':single' out")
     with output.open() as out:
         with out.campaign(campaign) as run:
-            made = maps(parts=part or PARTS, **run)
-        out.show(made)
+            answer = maps(parts=part or PARTS, **run)
+        out.show(answer)

@@ -1,4 +1,4 @@
-"""Scenes of the study: three published ones, a strip pressed along its length, clamps bent to a circle.
+"""Scenes of the study: three published ones, a strip pressed along its length, sheets on bent clamps.
 
 The Euler load of the clamped-free strip is π² E h³/48a² per width; a slight weight chooses its side. A clamp
 bent to curvature κ stands out like a tape spring, which its weight folds where L/2 = (1 ± ν)|κ a|, with
@@ -28,8 +28,7 @@ def sheet(
     poisson: float = POISSON,
     **more: Any,
 ) -> Scene:
-    """Return a square sheet clamped at `edges` under its own weight: thickness/side and ρ g h a³/D as
-    given."""
+    """Return a square sheet clamped at `edges` under its own weight, by thickness/side and ρ g h a³/D."""
     thickness = slenderness * SIDE
     rigidity = young * thickness**3 / 12.0 / (1.0 - poisson**2)
     density = abs(load_number) * rigidity / (GRAVITY * thickness * SIDE**3)

@@ -1,8 +1,8 @@
-"""The maps of the verb `stability` on the study's scenes, and three things that it does not vary.
+"""Maps of the verb `stability` on the study's scenes, and three further variations.
 
 mass       neighbouring masses in a ratio r, like a chess board, their sum kept: the explicit limit falls like
            1/√r as it is computed, the conserving midpoint rule at twenty times that limit keeps the energy
-stiffness  E and all loads times a factor: nothing but the units changes, nor may the answer
+stiffness  E and all loads times a factor: only the units change, and the answer must not
 family     one family of springs out of proportion: another sheet, but an answer or a status
 """
 
@@ -40,13 +40,12 @@ RATIOS, MASSES = (1.0, 1e2, 1e4, 1e6), (5, 9, 17)
 FACTORS = (1e-7, 1e-4, 1e-2, 1e2, 1e4, 1e6)
 FAMILIES = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
 CONTRASTS = (1e-6, 1e-4, 1e-2, 1e-1, 10.0, 1e2, 1e4, 1e6)
-STEPS, PER_LIMIT = 50, 20.0  # of the midpoint rule, its step over the explicit limit
+STEPS, PER_LIMIT = 50, 20.0  # of the midpoint rule; its step over the explicit limit
 GRID, ELEMENTS = 9, 12
 
 
 def chess_masses(masses: int, ratio: float) -> Row:
-    """Return Verlet's limit, its distance from the measured one, and the energy that the midpoint rule loses;
-    a task."""
+    """Return Verlet's limit, its distance from the measured one, and midpoint's loss of energy; a task."""
     scene = load("one-edge-clamped").replace(gravity=None)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(masses, masses))
 
@@ -68,7 +67,7 @@ def chess_masses(masses: int, ratio: float) -> Row:
 
 
 def stiffer(factor: float, model: str) -> Row:
-    """Return how far E and all loads times a factor move a model's answer; a task."""
+    """Return the change of a model's answer by a factor on E and all loads; a task."""
     scene = load("two-edges-clamped")
     other = scaled(scaled(scene, "young", factor), "load", factor)
     spec = Lattice(GRID) if model == "lumped" else Elements(model, ELEMENTS)
@@ -85,8 +84,8 @@ def out_of_proportion(family: str, contrast: float) -> Row:
 
 
 def _compared(scene: Scene, ours: Any, truth: Any) -> Row:
-    points, both = scene.probe_points(), ours.comparable and truth.comparable
-    off = error(ours.displacement(points), truth.displacement(points)) if both else None
+    points, comparable = scene.probe_points(), ours.comparable and truth.comparable
+    off = error(ours.displacement(points), truth.displacement(points)) if comparable else None
     return {"status": str(ours.status), "message": ours.message, "error": off}
 
 
@@ -106,28 +105,28 @@ def maps(
     turns: Sequence[float] = TURNS,
     **how: Unpack[CampaignKeywords],
 ) -> StabilityMaps:
-    """Return the maps of these parts, through a campaign's store."""
-    wanted: list[tuple[Scene, dict[str, Any]]] = (
+    """Return the maps of the given parts, through a campaign's store."""
+    plans: list[tuple[Scene, dict[str, Any]]] = (
         [(scene, {}) for scene in published()] if "published" in parts else []
     )
-    more = [pressed()] if "pressed" in parts else []
-    more += map(bent, turns) if "bent" in parts else []
-    wanted += [(scene, {"varied": ["load"], "lattice": Lattice(17)}) for scene in more]
-    made = tuple(stability(scene, store, **options, **how) for scene, options in wanted)
-    cells = [(name, task, cell) for name, (task, of) in TASKS.items() if name in parts for cell in of]
+    further = [pressed()] if "pressed" in parts else []
+    further += map(bent, turns) if "bent" in parts else []
+    plans += [(scene, {"varied": ["load"], "lattice": Lattice(17)}) for scene in further]
+    results = tuple(stability(scene, store, **options, **how) for scene, options in plans)
+    cells = [(name, task, cell) for name, (task, grid) in TASKS.items() if name in parts for cell in grid]
     runs = [Run(f"{__name__}:{task.__name__}", cell, f"{name} {cell}") for name, task, cell in cells]
     done = carry_out(runs, store, **how)
     fixed = [{"status": one.status, "message": one.message, "seconds": one.seconds} for one in done]
     rows = [
-        {"error": None, **end.row, "study": name, "cell": cell, **same}
-        for (name, _, cell), end, same in zip(cells, done, fixed, strict=True)
+        {"error": None, **end.row, "study": name, "cell": cell, **common}
+        for (name, _, cell), end, common in zip(cells, done, fixed, strict=True)
     ]
-    return StabilityMaps(made, tuple(rows))
+    return StabilityMaps(results, tuple(rows))
 
 
 @dataclass(frozen=True)
 class CellRow:
-    """A cell of what the verb does not vary, and how it ended."""
+    """Cell of a variation beyond the verb's, and its status."""
 
     varied: str
     what: str
@@ -139,7 +138,7 @@ class CellRow:
 
 @dataclass(frozen=True, repr=False)
 class StabilityMaps(Answer):
-    """maps: of scenes, by the verb; rows: of mass, stiffness and families."""
+    """Maps of scenes, by the verb; rows: of mass, stiffness and families."""
 
     maps: tuple[Stability, ...]
     rows: tuple[Row, ...]
@@ -153,21 +152,21 @@ class StabilityMaps(Answer):
         return {"scenes": [one.document() for one in self.maps], "rows": list(self.rows)}
 
     def tables(self) -> list[Table]:
-        made = []
+        tables = []
         for name, table in (("holds", summary), ("steps", limits)):
-            each = [(one.scene.name, table(one)) for one in self.maps]
-            rows = tuple((scene, *row) for scene, own in each for row in own.rows)
+            pairs = [(scene_map.scene.name, table(scene_map)) for scene_map in self.maps]
+            rows = tuple((scene, *row) for scene, table_of_scene in pairs for row in table_of_scene.rows)
             if rows:
-                columns = (Column("scene"), *each[0][1].columns)
-                made.append(Table(each[0][1].caption, columns, rows, name, grouped=True))
+                columns = (Column("scene"), *pairs[0][1].columns)
+                tables.append(Table(pairs[0][1].caption, columns, rows, name, grouped=True))
         return [
-            *made,
+            *tables,
             Table.of(CellRow, self._cells(), "Uneven masses and springs, other units", "cells", grouped=True),
         ]
 
     def _cells(self) -> Iterator[CellRow]:
         for row in self.rows:
-            what, at = sorted(row["cell"].items(), key=lambda one: one[0] in ("ratio", "factor", "contrast"))
+            what, at = sorted(row["cell"].items(), key=lambda key: key[0] in ("ratio", "factor", "contrast"))
             drift = row.get("energy_drift")
             yield CellRow(
                 row["study"],
@@ -179,16 +178,19 @@ class StabilityMaps(Answer):
             )
 
     def figures(self) -> list[Picture]:
-        each = [one for one in self.maps if len({row["study"] for row in one.rows}) > 1]
+        varied = [of for of in self.maps if len({row["study"] for row in of.rows}) > 1]
         verb = "comparisons.stability.figure:compose"
-        drawn = [Picture(f"stability-{one.scene.name}", verb, (one,), one.result()) for one in each]
-        clamps = {t: one for one in self.maps for t in TURNS if one.scene.name == bent(t).name}
-        said = "; ".join(f"{turns:g} of a circle: {one.result()}" for turns, one in clamps.items())
-        bends = [Picture("bent-clamps", f"{__name__}:of_clamps", (clamps,), said)] if clamps else []
+        drawn = [Picture(f"stability-{of.scene.name}", verb, (of,), of.result()) for of in varied]
+        clamps = {t: of for of in self.maps for t in TURNS if of.scene.name == bent(t).name}
+        caption = "; ".join(f"{turns:g} of a circle: {of.result()}" for turns, of in clamps.items())
+        bends = [Picture("bent-clamps", f"{__name__}:of_clamps", (clamps,), caption)] if clamps else []
         return [*drawn, *bends]
 
     def complaints(self) -> list[str]:
-        return [*(said for one in self.maps for said in one.complaints()), *broken(self.rows)]
+        return [
+            *(complaint for scene_map in self.maps for complaint in scene_map.complaints()),
+            *broken(self.rows),
+        ]
 
     @property
     def succeeded(self) -> bool:
@@ -199,14 +201,14 @@ def of_clamps(clamps: dict[float, Stability], style: FigureStyle = PLAIN) -> Fig
     """Return the lattice's errors over the clamp's turn and the load number, with a tape spring's fold."""
     rows = [
         {**row, "cell": {"turn": turn, "load_number": 0.1 * row["cell"]["factor"]}}
-        for turn, one in clamps.items()
-        for row in one.rows
+        for turn, scene_map in clamps.items()
+        for row in scene_map.rows
         if row["cell"]["model"] == "lumped"
     ]
     ticks = np.array(list(clamps))
 
     def root(turn: Any) -> Any:
-        """Return where a turn is drawn: small ones have room."""
+        """Return the coordinate of a turn in the figure, wider for small turns."""
         return np.copysign(np.sqrt(np.abs(turn)), turn)
 
     with matplotlib.rc_context(tiles.MAP_STYLE):

@@ -1,4 +1,4 @@
-"""The answer of the transfer study: its rows by part, and their tables, methods across and scenes down."""
+"""Answer of the transfer study: its rows by part, and their tables, methods across and scenes down."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LIMITS = {
 
 @dataclass(frozen=True)
 class Line:
-    """A line of a table: words and numbers by their columns' names, and errors by theirs."""
+    """Line of a table: words and numbers by their columns' names, and errors by theirs."""
 
     words: Mapping[str | Column, Any]
     errors: Annotated[Mapping[str, float | None], _ERROR]
@@ -33,7 +33,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Long:
-    """A grid whose cells are longer than wide."""
+    """Grid whose cells are longer than wide."""
 
     scene: str
     masses: str
@@ -43,7 +43,7 @@ class Long:
 
 @dataclass(frozen=True)
 class Graded:
-    """How a scene's lattices are graded, and why."""
+    """Grading of a scene's lattices, and its reason."""
 
     scene: str
     grading: str
@@ -52,7 +52,7 @@ class Graded:
 
 @dataclass(frozen=True, repr=False)
 class Transfer(Answer):
-    """The study's rows by part; `failed`: a sentence for every run without an answer."""
+    """Rows of the study by part; `failed`: a sentence for every run without an answer."""
 
     file_name = "transfer"
 
@@ -74,38 +74,38 @@ class Transfer(Answer):
         return dict(vars(self))  # errors and misses are fractions
 
     def tables(self) -> list[Table]:
-        made = []
+        tables = []
         if self.static:
-            made += [self._over_scenes(), *map(self._static, range(len(self.grids)))]
-            made += [self._static(None)] if len(self.grids) > 1 else []
-            made += [self._gradings()] if "gradings" in self.static[0] else []
-        made += [self._limits()] if self.limits else []
-        made += map(self._modal, range(len(self.grids))) if self.modal else []
-        made += [self._aspect()] if self.aspect else []
-        made += [self._left_out()] if self.left_out else []
-        made += [self._drawn()] if self.drawn else []
-        return made
+            tables += [self._over_scenes(), *map(self._static, range(len(self.grids)))]
+            tables += [self._static(None)] if len(self.grids) > 1 else []
+            tables += [self._gradings()] if "gradings" in self.static[0] else []
+        tables += [self._limits()] if self.limits else []
+        tables += map(self._modal, range(len(self.grids))) if self.modal else []
+        tables += [self._aspect()] if self.aspect else []
+        tables += [self._left_out()] if self.left_out else []
+        tables += [self._drawn()] if self.drawn else []
+        return tables
 
     def _over_scenes(self) -> Table:
-        """A row per method: median and worst error over the scenes; where the finest grid errs most."""
+        """Return a row per method: median and worst error, and the worst scene on the finest grid."""
         lines = []
         for method in self.methods:
-            mine = [row for row in self.static if row["method"] == method]
+            of_method = [row for row in self.static if row["method"] == method]
             errors: dict[str, float | None] = {}
             for i, n in enumerate(self.grids):
-                known = [row["errors"][i] for row in mine if row["errors"][i] is not None]
-                errors[f"median at {n}"] = float(np.median(known)) if known else None
-                errors[f"worst at {n}"] = max(known, default=None)
-            limits = [row["extrapolated"] for row in mine if row["extrapolated"] is not None]
+                numbers = [row["errors"][i] for row in of_method if row["errors"][i] is not None]
+                errors[f"median at {n}"] = float(np.median(numbers)) if numbers else None
+                errors[f"worst at {n}"] = max(numbers, default=None)
+            limits = [row["extrapolated"] for row in of_method if row["extrapolated"] is not None]
             errors["worst limit"] = max(limits, default=None)
-            answered = [row for row in mine if row["errors"][-1] is not None]
+            answered = [row for row in of_method if row["errors"][-1] is not None]
             worst = max(answered, key=lambda row: row["errors"][-1], default={"scene": None})["scene"]
             lines.append(Line({"method": method}, errors, {f"worst at {self.grids[-1]} is": worst}))
         scenes = len({row["scene"] for row in self.static})
         return Table.of(Line, lines, f"Errors over {scenes} scenes, by masses a side", "methods")
 
     def _by_method(self, entries: Iterable[tuple[Mapping[str | Column, Any], str, Any]]) -> list[Line]:
-        """A line for the same words, the methods across."""
+        """Return a line per combination of words, the methods across."""
         lines: dict[tuple[Any, ...], Line] = {}
         for words, method, value in entries:
             line = lines.setdefault(tuple(words.values()), Line(words, dict.fromkeys(self.methods)))
@@ -113,7 +113,7 @@ class Transfer(Answer):
         return list(lines.values())
 
     def _static(self, grid: int | None) -> Table:
-        """Errors of a grid by its place among the grids, or of the extrapolated limit."""
+        """Return errors of a grid by its index, or of the extrapolated limit."""
         caption, name = "Error of the limit extrapolated from the two finest grids", "static-extrapolated"
         if grid is not None:
             n = self.grids[grid]
@@ -125,7 +125,7 @@ class Transfer(Answer):
         return Table.of(Line, lines, caption, name, grouped=True)
 
     def _gradings(self) -> Table:
-        """A row per scene: that of a method which takes a grading, where one does."""
+        """Return a row per scene, of a method with a grading where one has it."""
         rows: dict[str, Graded] = {}
         for row in self.static:
             if any(row["gradings"]) or row["scene"] not in rows:
@@ -146,7 +146,7 @@ class Transfer(Answer):
         return Table.of(Line, lines, caption, "limits", grouped=True)
 
     def _modal(self, grid: int) -> Table:
-        """Misses of the first frequencies: a row per scene, way to share out the mass, and frequency."""
+        """Return misses of the first frequencies by scene, distribution of the mass, and frequency."""
         entries: list[tuple[dict[str | Column, Any], str, float]] = [
             ({"scene": row["scene"], "masses": row["masses"], _MODE: i}, row["method"], float(miss))
             for row in self.modal

@@ -30,7 +30,7 @@ def command(
 ) -> None:
     """Measure every calibration on many scenes, statics and frequencies, as the grid is refined.
 
-    On drawn sheets lattices stand beside the shell with its bar. With --out an interrupted study is resumed.
+    On drawn sheets lattices stand beside the shell with its bar. An interrupted study with --out is resumed.
 
     Args:
         methods (NAMES): Calibrations; all unless given.
@@ -38,10 +38,9 @@ def command(
         scenes (NAMES): Scenes of the study; all unless given.
         part (NAMES): Only {PARTS}. All unless given.
         elements (N): Elements of the shell along a side.
-        train: Only train the calibration central, and write its table.
-    """
-    calibrations = _known("--methods", methods, (*CALIBRATIONS, AUTO))
-    names = _known("--scenes", scenes, transfer_scenes())
+        train: Only train the calibration central, and write its table."""
+    calibrations = _require_known("--methods", methods, (*CALIBRATIONS, AUTO))
+    names = _require_known("--scenes", scenes, transfer_scenes())
     sizes = list(GRIDS) if grids is None else _masses(grids)
     if train:
         console.tell(f"{write_table()}: written")
@@ -61,10 +60,10 @@ def command(
         out.show(result)
 
 
-def _known(name: str, values: Sequence[str] | None, known: Collection[str]) -> Sequence[str]:
-    """Return the values. Raises BadInput for one that is not known."""
+def _require_known(name: str, values: Sequence[str] | None, choices: Collection[str]) -> Sequence[str]:
+    """Return the values. Raises BadInput for an unknown one."""
     for value in values or ():
-        require_choice(name, value, known)
+        require_choice(name, value, choices)
     return values or ()
 
 

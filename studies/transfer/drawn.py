@@ -1,8 +1,8 @@
-"""Lattice against shell on drawn sheets: errors at the probes as the grid is refined, and how fast they fall.
+"""Lattice against shell on drawn sheets: errors at the probes as the grid is refined, and their order.
 
-Required of 17 masses along the shorter side: 2 % of the largest displacement where rims lie along the axes,
-4 % where they are oblique or round; that the error falls with order 1.5 and 1 from 9 to 33 masses. The shell
-is taken as exact: `bar` is what its mesh leaves uncertain (`fem_reference.uncertainty`).
+Required errors with 17 masses along the shorter side: 2 % of the largest displacement where rims lie along
+the axes, 4 % where they are oblique or round; required orders from 9 to 33 masses: 1.5 and 1. The shell is
+taken as exact: `bar` is the uncertainty by its mesh (`fem_reference.uncertainty`).
 
 At a re-entrant corner of 270° with free sides a plate's moments go like r^(a − 1), sin(3πa/2) =
 a (1 − ν)/(3 + ν), a = 0.65 at ν = 0.45 (Williams, J. Appl. Mech. 19 (1952) 526–528): on evenly refined grids
@@ -31,8 +31,8 @@ GRIDS, ELEMENTS, MASSES = (9, 17, 33), 32, 17
 
 
 def measure(scene: dict[str, Any], grids: Sequence[int] = GRIDS, elements: int = ELEMENTS) -> dict[str, Any]:
-    """Return a scene's errors, shares of the largest displacement, by the number of masses along the shorter
-    side, and the shell's bar; a task. Raises RuntimeError where the shell has no equilibrium."""
+    """Return a scene's errors by the number of masses along the shorter side, and the shell's bar; a task.
+    Errors are shares of the largest displacement. Raises RuntimeError where the shell has no equilibrium."""
     parsed = Scene.model_validate(scene)
     points = parsed.probe_points()
     _, shell = solve_with_bar(parsed, points, elements=elements)
@@ -40,15 +40,14 @@ def measure(scene: dict[str, Any], grids: Sequence[int] = GRIDS, elements: int =
         raise RuntimeError(f"{parsed.name}: the shell has no equilibrium")
     errors: dict[str, float | None] = {}
     for masses in grids:
-        found = solve(resolve(parsed, Lattice(grid=masses)))
-        errors[str(masses)] = error(found.displacement(points), shell.answer) if found.comparable else None
+        answer = solve(resolve(parsed, Lattice(grid=masses)))
+        errors[str(masses)] = error(answer.displacement(points), shell.answer) if answer.comparable else None
     return {"scene": parsed.name, "errors": errors, "bar": shell.error}
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """A scene's errors by masses along the shorter side, the orders by which they fall, and the shell's
-    bar."""
+    """Errors of a scene by masses along the shorter side, their orders, and the shell's bar."""
 
     scene: str
     rims: str
@@ -59,18 +58,18 @@ class Drawn:
 
     @classmethod
     def of(cls, scene: str, errors: dict[str, float | None], bar: float) -> Drawn:
-        """Return the row of what `measure` found; missed: which requirement is, "" where none is."""
-        known = {int(n): np.inf if one is None else one for n, one in errors.items()}
-        steps = [*pairwise(known), (min(known), max(known))]
-        orders = {f"order {a}–{b}": float(_order(known, a, b)) for a, b in steps}
+        """Return the row of a result of `measure`; missed: the requirement that fails, "" if none does."""
+        numbers = {int(n): np.inf if value is None else value for n, value in errors.items()}
+        steps = [*pairwise(numbers), (min(numbers), max(numbers))]
+        orders = {f"order {a}–{b}": float(_order(numbers, a, b)) for a, b in steps}
         oblique = scene in OBLIQUE
-        near = known.get(MASSES, np.inf) <= (0.04 if oblique else 0.02)
-        steep = [*orders.values()][-1] >= (1.0 if oblique else 1.5)
-        missed = ", ".join(name for name, holds in (("error", near), ("order", steep)) if not holds)
-        shown = {str(n): float(one) for n, one in known.items()}
+        close = numbers.get(MASSES, np.inf) <= (0.04 if oblique else 0.02)
+        fast = [*orders.values()][-1] >= (1.0 if oblique else 1.5)
+        missed = ", ".join(name for name, holds in (("error", close), ("order", fast)) if not holds)
+        shown = {str(n): float(value) for n, value in numbers.items()}
         return cls(scene, "oblique" if oblique else "aligned", shown, orders, bar, missed)
 
 
 def _order(errors: dict[int, float], coarse: int, fine: int) -> float:
-    with np.errstate(divide="ignore"):  # without an answer on the finer grid: −∞
+    with np.errstate(divide="ignore"):  # −∞ without an answer on the finer grid
         return np.log(errors[coarse] / errors[fine]) / np.log((fine - 1) / (coarse - 1))

@@ -33,7 +33,7 @@ def _scene(
     edges: str = "x0",
     **keys: Any,
 ) -> Scene:
-    """A sheet of 3 mm and 5 MPa under its weight, clamped at edges. keys: outline, support."""
+    """Return a sheet of 3 mm and 5 MPa under its weight, clamped at edges. keys: outline, support."""
     outline = keys.pop("outline", None)
     sheet = {"length_x": size[0], "length_y": size[1], "thickness": 3e-3}
     return Scene.model_validate(
@@ -50,7 +50,7 @@ def _scene(
 
 
 def drawn() -> list[Scene]:
-    """Ten sheets: five with rims along the axes, then five with oblique and round ones."""
+    """Return ten sheets: five with rims along the axes, then five with oblique and round ones."""
     square = (0.15, 0.15)
     held = {"kind": "clamped", "where": _disc(0.06, 0.06, 0.02)["shape"]}
     return [
@@ -83,5 +83,5 @@ def drawn() -> list[Scene]:
 
 
 def drawn_sheets() -> list[Scene]:
-    """Return all fifteen."""
+    """Return all fifteen scenes."""
     return [*(load(name) for name in CATALOGUE), *drawn()]

@@ -1,16 +1,16 @@
-"""Do springs calibrated on some scenes serve others? Methods × scenes → error, as the grid is refined.
+"""Errors of calibrations on scenes that they were not made for: methods × scenes, as the grid is refined.
 
     error         largest |component of (u − u_shell)| over 5 × 5 points of the sheet, divided by the largest
                   |component of u_shell| there
     extrapolated  the error of Richardson's limit u + (u − u')/3 of the two finest grids, the coarser with
                   cells twice as large (u')
-    predicted     the error of the shell whose membrane, bending and shear stiffness are those
-                  the moduli report gives: of the finest grid, and of cells → 0
+    predicted     the error of the shell with the membrane, bending and shear stiffness of the moduli report,
+                  for the finest grid and for cells → 0
     miss          of a natural frequency: f/f_shell − 1
 
 Cross-layer links stiffen the membrane the less, the smaller the cells are beside the layer distance, so that
-a lattice which is not calibrated for its grid is another plate on every grid. What is predicted from its
-moduli on a grid is to be held against the error there; 33 masses a side may be far from cells → 0.
+a lattice that is not calibrated for its grid is another plate on every grid. A prediction from its
+moduli on a grid is compared with the error on that grid; 33 masses a side may be far from cells → 0.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from studies.transfer.drawn_scenes import drawn_sheets
 from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
 from studies.transfer.tasks import FINE, points
 
-# `consistent` has their moduli
+# not run: `consistent` has their moduli
 OTHERS = (
     *(f"consistent-{name}" for name in ("interior", "membrane", "oblique")),
     "neo-hookean",
@@ -46,8 +46,8 @@ FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out", "drawn")
 GRIDS = (9, 17, 33)
 MASSES = ("tributary", "gregory", "higher-order")
-LONG = ((9, 9), (9, 13), (9, 17), (9, 25), (25, 9))  # of `moduli` on the training scenes
-LONG_EVERYWHERE = ((17, 17), (17, 25), (17, 33), (17, 49), (49, 17))  # on every scene
+LONG = ((9, 9), (9, 13), (9, 17), (9, 25), (25, 9))  # grids of `moduli` on the training scenes
+LONG_EVERYWHERE = ((17, 17), (17, 25), (17, 33), (17, 49), (49, 17))  # grids of `moduli` on every scene
 LIMITS = (*TRAINING, *LINEAR)
 
 
@@ -63,18 +63,18 @@ def transfer(
     large: bool = False,
     **how: Unpack[CampaignKeywords],
 ) -> Transfer:
-    """Carry out the parts requested, through a campaign's store, and put their rows together.
-
-    methods: names of calibrations; grids: masses a side, 4 n + 1, coarsest first; grading: in the part
-    "static", of the methods that take one, a number or "auto"; scenes: names of `transfer_scenes`, all of
-    them unless given; elements: of the shell, along a side. Raises BadInput, before the first run, unless
-    `large` for what takes more memory than there is.
-    """
-    chosen = {name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes}
-    for scene in () if large else chosen.values():
+    """Carry out the requested parts through a campaign's store, and return their rows. methods: names of
+    calibrations; grids: masses a side, 4 n + 1, coarsest first; grading: in the part "static", of the methods
+    that take one, a number or "auto"; scenes: names of `transfer_scenes`, by default all; elements: of the
+    shell, along a side. Raises BadInput, before the first run, for a grid or mesh that takes more memory than
+    there is, unless `large`."""
+    scenes_by_name = {
+        name: scene for name, scene in transfer_scenes().items() if scenes is None or name in scenes
+    }
+    for scene in () if large else scenes_by_name.values():
         require_room(scene, Lattice((max(grids), max(grids))), "--grids")
         require_room(scene, Elements("shell", elements))
-    study = _Study(chosen, tuple(methods), tuple(grids), elements, grading)
+    study = _Study(scenes_by_name, tuple(methods), tuple(grids), elements, grading)
     study.rows(parts)
     done = carry_out(study.runs, store, **how)
     study.outcomes = dict(zip((run.key for run in study.runs), done, strict=True))
@@ -87,7 +87,7 @@ def transfer(
 
 
 class _Study:
-    """The runs that the parts need, and rows from their outcomes."""
+    """Runs that the parts need, and rows from their outcomes."""
 
     def __init__(
         self,
@@ -109,7 +109,7 @@ class _Study:
         return list(self.planned.values())
 
     def rows(self, parts: Sequence[str]) -> dict[str, list[dict[str, Any]]]:
-        """Return the rows by part; before there are outcomes, every run that they need is noted."""
+        """Return the rows by part; before there are outcomes, note every run that they need."""
         names = [part.replace("-", "_") for part in parts]
         return {name: list(getattr(self, name)()) for name in names}
 
@@ -120,22 +120,22 @@ class _Study:
             for method in self.methods:
                 grids = list(zip(self.grids, gradings[method], strict=True))
                 fields = [self._lattice(name, method, (n, n), grading=g) for n, g in grids]
-                chosen = {"gradings": gradings[method], "reasons": list(reasons)}
-                taken = {"calibration": self._method(name, method)} if method == AUTO else {}
+                grading_fields = {"gradings": gradings[method], "reasons": list(reasons)}
+                resolved = {"calibration": self._method(name, method)} if method == AUTO else {}
                 yield {
                     "scene": name,
                     "method": method,
-                    **({} if self.grading is None else chosen),
-                    **taken,
+                    **({} if self.grading is None else grading_fields),
+                    **resolved,
                     "trained_on": method in FITTED and name in TRAINING,
                     "errors": [_error(u, truth) for u in fields],
                     "extrapolated": _error(_richardson(fields), truth),
                 }
 
     def gradings(self, name: str) -> tuple[dict[str, list[float | str]], tuple[str, ...]]:
-        """Of the scene's lattices by method, one a grid, and the reasons where they were chosen."""
-        every = lattices(self.scenes[name], [(n, n) for n in self.grids], self.methods)
-        chosen, reasons = resolve_each(self.scenes[name], every, self.grading)
+        """Return the gradings of the scene's lattices by method, one a grid, and the reasons."""
+        specs = lattices(self.scenes[name], [(n, n) for n in self.grids], self.methods)
+        chosen, reasons = resolve_each(self.scenes[name], specs, self.grading)
         values = [candidate.settings.get("grading", 0.0) for candidate in chosen]
         count = len(self.grids)
         return {m: values[i * count : (i + 1) * count] for i, m in enumerate(self.methods)}, reasons
@@ -185,13 +185,13 @@ class _Study:
         n = self.grids[0]
         held_out = [name for name in self.scenes if name in HELD_OUT]
         for method in (m for m in self.methods if m in FITTED):
-            own_masses = "gregory" if method == "fit-modal" else "tributary"
+            masses = "gregory" if method == "fit-modal" else "tributary"
             for name in held_out:
                 if not (training := [other for other in held_out if other != name]):
                     continue
                 u = self._lattice(name, method, (n, n), "fitted", training=training)
                 f = self._lattice(
-                    name, method, (n, n), "lattice_frequencies", training=training, masses=own_masses
+                    name, method, (n, n), "lattice_frequencies", training=training, masses=masses
                 )
                 truth = self._reference(name, "reference_frequencies")
                 yield {
@@ -209,7 +209,7 @@ class _Study:
                 yield {key: done.row[key] for key in ("scene", "errors", "bar")}
 
     def _method(self, name: str, method: str) -> str:
-        """The calibration of a scene's lattices, "auto" as it has it."""
+        """Return the calibration of a scene's lattices; "auto" is resolved."""
         return resolve(self.scenes[name], Lattice(calibration=method)).spec.calibration or method
 
     def _lattice(
@@ -223,8 +223,8 @@ class _Study:
         grading: float | str = 0.0,
         **more: Any,
     ) -> np.ndarray | None:
-        """What a task finds of a lattice, its displacement at the points without one; training: scenes of a
-        fitted method in place of its own."""
+        """Return a task's result for a lattice; without a task, its displacement at the points. training:
+        scenes of a fitted method in place of its own."""
         method = self._method(name, method)
         if not task:
             return self._field(name, Lattice((*grid, 2), method, grading=grading))
@@ -239,18 +239,18 @@ class _Study:
         return self._ask(task, name, task, elements=self.elements)
 
     def _field(self, name: str, spec: Spec) -> np.ndarray | None:
-        """The displacement at the points, by the table of solves."""
+        """Return the displacement at the points, by the table of solves."""
         done = self._done(Ask(self.probed[name], spec, label=f"{name} {spec.label}").task)
         return None if done is None else np.array([*done.row["probes"].values()])
 
     def _ask(self, task: str, name: str, label: str, **arguments: Any) -> np.ndarray | None:
-        """What a run found, or None where it has no answer to the whole load or is not done yet."""
+        """Return a run's result, or None where it has no answer to the whole load or is not done yet."""
         arguments["scene"] = self.texts[name]
         done = self._done(Run(f"studies.transfer.tasks:{task}", arguments, f"{name} {label}"))
         return None if done is None else np.array(done.row["found"], dtype=float)
 
     def _done(self, run: Run) -> Finished | None:
-        """Note a run; what it found, None where it has no answer to the whole load or is not done yet."""
+        """Note a run and return its outcome, None without an answer to the whole load, or before it."""
         self.planned.setdefault(run.key, run)
         done = None if self.outcomes is None else self.outcomes[run.key]
         return done if done is not None and _answered(done) else None
@@ -261,7 +261,7 @@ def _probes(scene: Scene) -> dict[str, list[float]]:
 
 
 def _answered(done: Finished) -> bool:
-    """Whether a run ended with what may be used: what it was to do done, or an answer to compare."""
+    """Return whether a run ended with a usable result: a task done, or an answer to compare."""
     return done.status == "done" or comparable(done.status, done.row.get("load_factor", 1.0))
 
 
@@ -274,7 +274,7 @@ def _misses(f: np.ndarray | None, truth: np.ndarray | None) -> np.ndarray | None
 
 
 def _richardson(fields: Sequence[np.ndarray | None]) -> np.ndarray | None:
-    """The limit of the two finest fields, the coarser on cells twice as large, if the error falls as h²."""
+    """Return the limit of the two finest fields, one on cells twice as large, for errors like h²."""
     if len(fields) < 2 or fields[-1] is None or fields[-2] is None:
         return None
     limit: np.ndarray = fields[-1] + (fields[-1] - fields[-2]) / 3.0

@@ -1,7 +1,7 @@
-"""The runs of the transfer study, each carried out in a process of its own: plain data in and out.
+"""Runs of the transfer study, each carried out in a process of its own: plain data in and out.
 
-Displacements [m] are taken at 5 × 5 points evenly over the sheet, edges included, which every grid of 4 n + 1
-masses a side has among its masses; frequencies in Hz.
+Displacements [m] are taken at 5 × 5 points evenly over the sheet, edges included, which are masses of every
+grid of 4 n + 1 masses a side; frequencies in Hz.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from sheetbench.scenes import Scene, Sheet
 
 POINTS = 5  # along each side
 FREQUENCIES = 3
-FINE = 4097  # masses a side of the grid whose moduli stand for those of cells → 0
+FINE = 4097  # masses a side of the grid whose moduli stand for cells → 0
 
 
 def points(sheet: Sheet) -> np.ndarray:
-    """Return where models are compared, (25, 2) [m]."""
+    """Return the points at which models are compared, (25, 2) [m]."""
     return plan_points(plan_grid(sheet.lengths, (POINTS, POINTS)))
 
 
@@ -37,7 +37,7 @@ def fitted(scene: dict[str, Any], **lattice: Any) -> dict[str, Any]:
 
 
 def homogenised(scene: dict[str, Any], elements: int, **lattice: Any) -> dict[str, Any]:
-    """Return the displacement at the points of the shell whose section is the lattice's."""
+    """Return the displacement at the points of the shell with the lattice's section."""
     parsed = Scene.model_validate(scene)
     springs = _springs(parsed, **lattice)
     sides = np.divide(parsed.sheet.lengths, np.subtract(springs.grid[:2], 1))
@@ -47,8 +47,7 @@ def homogenised(scene: dict[str, Any], elements: int, **lattice: Any) -> dict[st
 
 
 def lattice_frequencies(scene: dict[str, Any], masses: Any, **lattice: Any) -> dict[str, Any]:
-    """Return the lowest natural frequencies of a lattice, its mass shared out in one of `lumped.masses`'
-    ways."""
+    """Return the lowest natural frequencies of a lattice; masses: one of `lumped.masses`' distributions."""
     parsed = Scene.model_validate(scene)
     modes = lumped.modes(parsed, _springs(parsed, **lattice), FREQUENCIES, masses)
     return {"found": modes.frequencies}
@@ -68,9 +67,11 @@ def _springs(
     training: Sequence[dict[str, Any]] | None = None,
     grading: float | str = 0.0,
 ) -> lumped.Calibration:
-    """Return a lattice's springs. training: scenes of a fitted method, its own unless given."""
-    chosen = None if training is None else [Scene.model_validate(data) for data in training]
-    return resolve(scene, Lattice(tuple(grid), method, grading=grading), "springs").calibrated(chosen)
+    """Return a lattice's springs. training: scenes of a fitted method, by default its own."""
+    training_scenes = None if training is None else [Scene.model_validate(data) for data in training]
+    return resolve(scene, Lattice(tuple(grid), method, grading=grading), "springs").calibrated(
+        training_scenes
+    )
 
 
 def _displacement(solution: Solution, scene: Scene) -> dict[str, Any]:

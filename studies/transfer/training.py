@@ -1,19 +1,19 @@
-"""What the calibration `central` is trained on: the isotropic sheet of Cauchy's moduli that errs least.
+"""Training of the calibration `central`: the isotropic sheet of Cauchy's moduli with the least error.
 
 A lattice of links alone has C12 = C66 in its layers, so that it bends and stretches as a sheet of
 
     D11 = a D,   D12 = D66 = b D,        A11 = c A,   A12 = A66 = (b/a) c A.
 
-For every ν the three numbers are found that make the worst training scene the least wrong, the plate and
-the shell of those moduli against the sheet's own on the same mesh:
+For every ν the three numbers minimise the largest error over the training scenes, of the plate and
+the shell with a, b, c against the sheet's own moduli on one mesh:
 
     a, b   eight ways of holding a square sheet under little load. Clamped or hinged all round, a deflection
-           knows D11 and D12 + 2 D66 alone and asks for b = 1/3 whatever ν; free edges and corners ask for
-           the twisting stiffness b = (1 − ν)/2, free strips for a − b²/a = 1 − ν². Each is in the set.
+           depends on D11 and D12 + 2 D66 alone and requires b = 1/3 for any ν; free edges and corners require
+           the twisting stiffness b = (1 − ν)/2, free strips a − b²/a = 1 − ν². Each is in the set.
     c      five scenes that mostly stretch: a third of the thickness under its weight, and a bent edge.
 
-A thin plate's deflection is as 1/a for a given b/a, and smooth in b/a and c: solved at a few, interpolated by
-polynomials, minimised over a fine grid.
+A thin plate's deflection is proportional to 1/a for a given b/a, and smooth in b/a and c: it is solved at a
+few values, interpolated by polynomials, minimised over a fine grid.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ STRETCHED = (*(name for name in HELD if name not in ("one edge clamped", "two op
 
 @dataclass(frozen=True)
 class Trained:
-    """Of a Poisson's ratio: a, b, c, the worst error of the bent and of the stretched scenes, and that of the
-    isotropic lattice with the sheet's own D11 (`cauchy`) on the bent ones."""
+    """Trained a, b, c of a Poisson's ratio, and the worst errors of the bent and of the stretched scenes.
+    worst_cauchy: of the isotropic lattice with the sheet's own D11 (`cauchy`), on the bent scenes."""
 
     poisson: float
     bending: float
@@ -67,13 +67,12 @@ class Trained:
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """All of it, rounded to what the meshes are good for."""
+        """All numbers, rounded to the accuracy of the meshes."""
         return tuple(round(getattr(self, field.name), 4) for field in fields(self))
 
 
 def bent_scenes() -> dict[str, Scene]:
-    """Habibi et al.'s sheet under a thousandth of its weight, held seven ways, and a force at its free
-    corner."""
+    """Return Habibi et al.'s sheet under 1/1000 of its weight, held seven ways, and with a corner force."""
     feather = Gravity(acceleration=(0.0, 0.0, -9.81e-3))
     bent = {name: _scene(held, feather) for name, held in HELD.items()}
     force = PointLoad(at=(SIDE, SIDE), force=(0.0, 0.0, 1e-4))
@@ -84,21 +83,21 @@ def bent_scenes() -> dict[str, Scene]:
 
 
 def stretched_scenes() -> dict[str, Scene]:
-    """A third of the thickness under the whole weight, and the published model's bent edge."""
+    """Return a third of the thickness under the whole weight, and the published model's bent edge."""
     thin = {**SEED.sheet.model_dump(), "thickness": 0.001}
     stretched = {name: _scene(HELD[name], SEED.gravity).replace(sheet=thin) for name in STRETCHED}
     return {**stretched, "a bent edge": load("curved-edge")}
 
 
 def trained(poisson: float) -> Trained:
-    """The numbers for a Poisson's ratio."""
+    """Return the numbers for a Poisson's ratio."""
     a, b, worst_bent, worst_cauchy = trained_to_bend(poisson)
     c, worst_stretched = trained_to_stretch(poisson, a, b)
     return Trained(poisson, a, b, c, worst_bent, worst_stretched, worst_cauchy)
 
 
 def trained_to_bend(poisson: float) -> tuple[float, float, float, float]:
-    """a, b, the worst error with them and that with 1, 1/3."""
+    """Return a, b, the worst error with both, and the worst error with a = 1, b = 1/3."""
     scenes = [_with_poisson(scene, poisson) for scene in bent_scenes().values()]
     fields = [_interpolated(scene, "plate", RATIOS, lambda ratio: (1.0, ratio, 1.0)) for scene in scenes]
     truths = [_displacement(scene, "plate") for scene in scenes]
@@ -115,7 +114,7 @@ def trained_to_bend(poisson: float) -> tuple[float, float, float, float]:
 
 
 def trained_to_stretch(poisson: float, a: float, b: float) -> tuple[float, float]:
-    """c beside a and b, and the worst error with it."""
+    """Return c for given a and b, and the worst error with it."""
     scenes = [_with_poisson(scene, poisson) for scene in stretched_scenes().values()]
     fields = [_interpolated(scene, "shell", STRETCHES, lambda k: (a, b / a, k * a)) for scene in scenes]
     truths = [_displacement(scene, "shell") for scene in scenes]
@@ -140,14 +139,15 @@ def _with_poisson(scene: Scene, poisson: float) -> Scene:
 def _interpolated(
     scene: Scene, model: str, at: np.ndarray, numbers: Callable[[float], tuple[float, float, float]]
 ) -> Any:
-    """Displacements as a polynomial in a number; numbers: a, b/a, c there."""
+    """Return displacements as a polynomial in a number; numbers: a function from it to a, b/a, c."""
     return BarycentricInterpolator(at, [_displacement(scene, model, *numbers(x)) for x in at.tolist()])
 
 
 def _displacement(
     scene: Scene, model: str, a: float | None = None, ratio: float = 0.0, c: float = 0.0
 ) -> np.ndarray:
-    """Of the sheet, or of that with D11 = a D, D12 = D66 = a ratio D, A11 = c A, …, at 5 × 5 points [m]."""
+    """Return displacements [m] at 5 × 5 points, with the sheet's own moduli unless a is given. Else D11 = a
+    D, D12 = D66 = a ratio D, A11 = c A, …"""
     section = section_of(scene.material, scene.sheet.thickness)
     if a is not None:
         form = np.array([[1.0, ratio, 0.0], [ratio, 1.0, 0.0], [0.0, 0.0, ratio]])
@@ -160,21 +160,10 @@ def _error(displacement: np.ndarray, truth: np.ndarray) -> float:
     return float(np.abs(displacement - truth).max() / np.abs(truth).max())
 
 
-HEAD = '''\
-"""The moduli of the calibration `central` by Poisson's ratio: `make central` finds and writes them.
-
-ν, then a, b, c with D11 = a D, D12 = D66 = b D, A11 = c A, A12 = A66 = (b/a) c A, D and A the sheet's own;
-the worst error that a sheet of these moduli makes on the training scenes that bend, on those that stretch,
-and that of `cauchy` on those that bend. Trained on: `studies.transfer.training`.
-"""
-
-ROWS = (
-'''
-
-
 def write_table() -> Path:
-    """Train the calibration `central`, and write its table; where it is."""
-    rows = (f"    ({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
+    """Train the calibration `central`, and write the rows of its table; return the table's path."""
+    rows = (f"    CentralFactors({', '.join(map(str, trained(poisson).numbers))}),\n" for poisson in POISSON)
     table = Path(lumped.__file__).parent / "calibration" / "central_table.py"
-    write_text(table, HEAD + "".join(rows) + ")\n")
+    head = table.read_text(encoding="utf-8").partition("ROWS = (\n")
+    write_text(table, "".join([*head[:2], *rows, ")\n"]))
     return table

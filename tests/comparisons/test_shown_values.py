@@ -88,7 +88,7 @@ def test_grading_changes_no_rate_and_a_calibration_does():
         spec_of("lumped", {"grid": [9, 9], "calibration": name, **more})
         for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
     )
-    assert trials._rate(even) == trials._rate(graded) != trials._rate(other)
+    assert trials._time_series(even) == trials._time_series(graded) != trials._time_series(other)
 
 
 def test_a_fit_is_shown_in_the_tables_units(monkeypatch):

@@ -116,7 +116,7 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
         kept = MemoryStore({"samples": (6,), "frames": (1, 3)})
         run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), kept, (), None)
         run.watch = Watch(balance, lowest=balance, largest=3.0)
-        fault = run._take(moving)
+        fault = run._record_samples(moving)
         return run.samples, fault
 
     assert checked(1.9) == (1, None)
@@ -165,7 +165,10 @@ def test_bent_first_the_shell_folds_at_the_weight_at_which_calculix_does(element
     for share in SHARES[1:]:
         scene, last, start = bent(share), found, before
         found = fem_reference.solve(
-            scene, model="shell", elements=elements, near=lambda at, s=start, f=last: shape(s, f, at)
+            scene,
+            model="shell",
+            elements=elements,
+            near=lambda at, s=start, f=last: shape(s, f.displacement, at),
         )
         assert found.status is Status.CONVERGED, found.message
         sags.append(float(found.displacement(P3)[0, 2]))

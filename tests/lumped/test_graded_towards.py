@@ -6,9 +6,9 @@ from cases import OBLONG, SILICONE, relative
 
 import fem_reference
 import lumped
-from comparisons.comparison.comparison import error
 from comparisons.models.grading import ONE_SIDED, grading_of, parse_grading
 from comparisons.models.spec import Lattice
+from comparisons.sweep.differences import error
 from lumped.grid_lines import grid_lines
 from lumped.spring_constants import of_edge_cells
 from sheetbench.answers.solution import Status

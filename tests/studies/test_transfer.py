@@ -67,7 +67,7 @@ def test_command(tmp_path, in_process, capsys):
 
 def test_the_table_of_central_is_what_its_scenes_ask_for():
     """Of one row: the numbers are as fine as the search, the errors flat about their least."""
-    row = next(row for row in ROWS if row[0] == 0.45)
+    row = next(row for row in ROWS if row.poisson == 0.45)
     a, b, worst, cauchy = trained_to_bend(0.45)
-    assert (a, b) == pytest.approx(row[1:3], abs=2e-3)
-    assert (worst, cauchy) == pytest.approx((row[4], row[6]), abs=1e-3)
+    assert (a, b) == pytest.approx((row.bending, row.twisting), abs=2e-3)
+    assert (worst, cauchy) == pytest.approx((row.bending_error, row.cauchy_error), abs=1e-3)

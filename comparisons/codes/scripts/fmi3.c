@@ -19,43 +19,38 @@ API const char *fmi3GetVersion(void) { return "3.0"; }
 API void *fmi3InstantiateCoSimulation(const char *name, const char *token, const char *path, bool visible, bool log, bool events,
     bool early, const number *between, size_t count, void *environment, void *logged, void *updated) {
   unit *u = calloc(1, sizeof *u);
-  (void)name, (void)token, (void)path, (void)visible, (void)log, (void)events, (void)early, (void)between, (void)count;
-  (void)environment, (void)logged, (void)updated;
   if (u) sheet_reset(&u->s);
   return u;
 }
 API void fmi3FreeInstance(void *u) { free(u); }
 API int fmi3EnterInitializationMode(void *u, bool given, double tolerance, double start, bool ends, double stop) {
-  (void)given, (void)tolerance, (void)ends, (void)stop, ((unit *)u)->now = start;
-  return OK;
+  return ((unit *)u)->now = start, OK;
 }
 API int fmi3ExitInitializationMode(void *u) { return u ? OK : ERROR; }
 API int fmi3Terminate(void *u) { return u ? OK : ERROR; }
 API int fmi3Reset(void *u) { return sheet_reset(&((unit *)u)->s), ((unit *)u)->now = 0, OK; }
-API int fmi3SetDebugLogging(void *u, bool on, size_t count, const char *const *of) { return (void)u, (void)on, (void)count, (void)of, OK; }
+API int fmi3SetDebugLogging(void *u, bool on, size_t count, const char *const *of) { return u ? OK : ERROR; }
+static sheet_real *input(sheet *s, int n) {
+  if (n < GRAVITY) return &s->force[(n - FORCES) / 3][(n - FORCES) % 3];
+  return n < FACTORS ? &s->gravity[n - GRAVITY] : &s->factor[n - FACTORS];
+}
 API int fmi3SetFloat64(void *of, const number *at, size_t count, const double *x, size_t values) {
-  sheet *s = &((unit *)of)->s;
-  (void)values;
   for (size_t k = 0; k < count; k++) {
     const int n = (int)at[k];
     if (n < FORCES || n >= OUTPUTS) return ERROR;
-    if (n < GRAVITY) s->force[(n - FORCES) / 3][(n - FORCES) % 3] = (sheet_real)x[k];
-    else if (n < FACTORS) s->gravity[n - GRAVITY] = (sheet_real)x[k];
-    else sheet_set_curvature(s, n - FACTORS, (sheet_real)x[k]);
+    if (n < FACTORS) *input(of, n) = (sheet_real)x[k];
+    else sheet_set_curvature(of, n - FACTORS, (sheet_real)x[k]);
   }
   return OK;
 }
 API int fmi3GetFloat64(void *of, const number *at, size_t count, double *x, size_t values) {
-  sheet *s = &((unit *)of)->s;
-  (void)values;
+  sheet *s = of;
   for (size_t k = 0; k < count; k++) {
     const int n = (int)at[k];
     sheet_real three[3];
     if (n >= ALL) return ERROR;
     if (n == 0) x[k] = ((unit *)of)->now;
-    else if (n < GRAVITY) x[k] = (double)s->force[(n - FORCES) / 3][(n - FORCES) % 3];
-    else if (n < FACTORS) x[k] = (double)s->gravity[n - GRAVITY];
-    else if (n < OUTPUTS) x[k] = (double)s->factor[n - FACTORS];
+    else if (n < OUTPUTS) x[k] = (double)*input(s, n);
     else if (n < REACTIONS) sheet_probe(s, (n - OUTPUTS) / 3, three), x[k] = (double)three[(n - OUTPUTS) % 3];
     else if (n < ENERGIES) sheet_reaction(s, (n - REACTIONS) / 3, three), x[k] = (double)three[(n - REACTIONS) % 3];
     else x[k] = (double)sheet_energy(s, n - ENERGIES);
@@ -65,7 +60,6 @@ API int fmi3GetFloat64(void *of, const number *at, size_t count, double *x, size
 API int fmi3DoStep(void *of, double now, double h, bool keep, bool *event, bool *ends, bool *early, double *last) {
   unit *u = of; /* as many steps of one length as it takes, none above SHEET_STEP */
   const int count = (int)ceil(h / (double)SHEET_STEP - 1e-9);
-  (void)keep;
   if (count > 0) u->s.step = (sheet_real)(h / count), sheet_step(&u->s, count);
   *event = *ends = *early = false, *last = u->now = now + h;
   return isfinite((double)sheet_energy(&u->s, SHEET_KINETIC)) ? OK : ERROR;

@@ -12,21 +12,16 @@ int main(int words, char **word) {
   while ((letter = fgetc(file)) != '\n' && letter != EOF) continue;
   sheet_reset(&s);
   for (; fscanf(file, "%lf", &at) == 1; rows++) {
-    double found[COUNT];
-    int n = 0;
     while ((double)s.time + (double)s.step / 2 < at) sheet_step(&s, 1);
-    for (int k = 0; k < SHEET_POINTS + SHEET_BODIES; k++, n += 3) {
-      sheet_real three[3];
-      if (k < SHEET_POINTS) sheet_probe(&s, k, three);
-      else sheet_reaction(&s, k - SHEET_POINTS, three);
-      for (int e = 0; e < 3; e++) found[n + e] = (double)three[e];
-    }
-    for (int k = 0; k < 3; k++) found[n++] = (double)sheet_energy(&s, k);
-    for (n = 0; n < COUNT; n++) {
+    for (int n = 0; n < COUNT; n++) {
       const int kind = n < 3 * SHEET_POINTS ? 0 : n < COUNT - 3 ? 1 : 2;
+      sheet_real three[3];
       double known = 0, gap;
+      if (kind == 0) sheet_probe(&s, n / 3, three);
+      else if (kind == 1) sheet_reaction(&s, n / 3 - SHEET_POINTS, three);
+      else three[n % 3] = sheet_energy(&s, n % 3);
       if (fscanf(file, ",%lf", &known) != 1) return fprintf(stderr, "check.csv breaks off\n"), 2;
-      gap = found[n] > known ? found[n] - known : known - found[n];
+      gap = (double)three[n % 3] > known ? (double)three[n % 3] - known : known - (double)three[n % 3];
       if (!(gap <= off[kind])) off[kind] = gap;
       if (known > peak[kind] || -known > peak[kind]) peak[kind] = known > 0 ? known : -known;
     }

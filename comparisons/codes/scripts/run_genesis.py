@@ -3,20 +3,20 @@
     pip install torch genesis-world==1.4.5
     python run_genesis.py [SECONDS]
 
-A constraint of compliance c is moved once a step of dt without a multiplier, and is at rest as stiff as
-1/(c + (w1 + w2) dt²), w = 1/mass, 0 of what is held; what sheet.json says is that stiffness, so the rest is
-taken off c here. A hinge is as stiff as s²/(c + W dt² s²), s the sine of its angle, W = Σ w |grad angle|²: a
-flat sheet with any bending compliance does not resist bending. With compliance 0 it is r/(W dt²), r the
-relaxation, by which a hinge's stiffness is given here. W is less next to a clamp, whose vertices have w = 0:
-with one r for all, as the material has it, hinges there are up to six times as stiff. So masses, compliances
-and relaxations are put into the solver's own fields, for every vertex, side and hinge, and the mesh is kept,
-which Genesis would replace by one of its own.
+A constraint of compliance c is moved once a step of dt without a multiplier, and is at rest as stiff as 1/(c
++ (w1 + w2) dt²), w = 1/mass, 0 of held vertices; sheet.json has that stiffness, so the rest is taken off c
+here. A hinge is as stiff as s²/(c + W dt² s²), s the sine of its angle, W = Σ w |grad angle|²: a flat sheet
+with any bending compliance does not resist bending. At compliance 0 it is r/(W dt²), r the relaxation, by
+which a hinge's stiffness is given here. W is less next to a clamp, whose vertices have w = 0: with one r for
+all, the material's, hinges there are up to six times as stiff. So masses, compliances and relaxations are put
+into the solver's own fields, for every vertex, side and hinge, and the mesh is kept, which Genesis would
+replace by one of its own.
 
-Keys that begin with "own " are taken as they are, with Genesis's own mesh, masses and iterations; held are
-then the vertices next to those held in the mesh given, and displacements those of the vertex next to a probe.
-Velocities are set to zero whenever the mean kinetic energy of some steps has passed a peak. The sheet rests
-when it then hardly starts again: how far it gets is compared with what the load alone would do in that time,
-for steps are so short that it moves little between two checks, wherever it is.
+Keys that begin with "own " are taken as they are, with Genesis's own mesh, masses and iterations; then the
+vertices nearest to the held ones of the given mesh are held, and a probe has the displacement of the vertex
+next to it. Velocities are set to zero whenever the mean kinetic energy of some steps has passed a peak. The
+sheet rests when it then hardly starts again: its way is compared with the way under the load alone in that
+time, for steps are so short that it moves little between two checks, wherever it is.
 """
 
 import json

@@ -5,8 +5,8 @@
 
 Springs are damped along their length by DAMPING times their stiffness, which PyBullet takes implicitly: steps
 then may be as long as twice DAMPING, however stiff the springs, and the sheet creeps to rest. Damping as it
-is given in examples (0.1 N·s/m, in all directions) does not stop the sheet within minutes, and asks for steps
-shorter than a spring's period. Every vertex has the same mass there.
+is given in examples (0.1 N·s/m, in all directions) does not stop the sheet within minutes, and requires steps
+shorter than a spring's period. All vertices there have equal masses.
 """
 
 import json

@@ -1,14 +1,14 @@
 """CalculiX as a model: the sheet as 20-node bricks, two layers through the thickness.
 
-A program of its own (Debian: calculix-ccx), `ccx` on the PATH, which reads a deck and writes its
-results in a temporary folder. Everything of a scene but chains and edge moments.
+The program `ccx` on the PATH (Debian: calculix-ccx) reads a deck and writes its results in a temporary
+folder. All parts of a scene but chains and edge moments are supported.
 
-The input deck has bricks with reduced integration (C3D20R), and one static step under the whole
-load. NLGEOM makes the step geometrically nonlinear: total Lagrangian, the linear-elastic law between
-Green strain and second Piola–Kirchhoff stress (St Venant–Kirchhoff's), or *HYPERELASTIC of a rubber. Its
-usual tolerances (residual 5e-3 of the mean force, correction 1e-2 of the displacement) are far coarser than
-the differences looked for, so the deck tightens them. Pressure acts half on the lower and half on the upper
-face and follows both. Parts of different materials are element sets.
+The input deck has bricks with reduced integration (C3D20R), and one static step under the whole load. NLGEOM
+makes the step geometrically nonlinear: total Lagrangian, with the linear-elastic law between Green strain and
+second Piola–Kirchhoff stress (St Venant–Kirchhoff's), or *HYPERELASTIC for a rubber. The default tolerances
+(residual 5e-3 of the mean force, correction 1e-2 of the displacement) are too coarse for comparisons, so the
+deck tightens them. One half of a pressure acts on the lower and one on the upper face, and both follow the
+deformation. Parts of different materials are element sets.
 
 Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC, *CONTROLS, *DLOAD,
 *TRANSFORM, *NODE PRINT, *ELASTIC, *ORIENTATION.
@@ -35,22 +35,22 @@ from sheetbench.scenes import Material, Pressure, Scene
 from sheetbench.scenes.objects.fields import SHAPED
 from sheetbench.scenes.objects.orthotropy import FIBRES, impossible_in_space
 
-RESIDUAL, CORRECTION = 1e-7, 1e-7  # of the mean force, of the displacement: where an increment ends
+RESIDUAL, CORRECTION = 1e-7, 1e-7  # of the mean force, of the displacement: tolerances of an increment
 FIRST, LEAST, LARGEST = 1.0, 1e-6, 1.0
-# Of rubber: CalculiX' names and the constants they take. Its energies are of the stretches without the change
-# of volume, and of (J − 1)²: ours as ν → ½. Strips pulled by 58 % are 1.4 % apart at ν = 0.49, 0.14 at 0.499.
+# Rubber laws: CalculiX' names and constants. Its energies depend on the isochoric stretches and on (J − 1)²,
+# as ours for ν → ½. Strips pulled by 58 % differ by 1.4 % at ν = 0.49, by 0.14 % at 0.499.
 LAWS = {
     "neo-hookean": ("NEO HOOKE", ("c10",)),
     "mooney-rivlin": ("MOONEY-RIVLIN", ("c10", "c01")),
     "yeoh": ("YEOH", ("c10", "c20", "c30")),
 }
-INCOMPRESSIBLE = 0.495  # Poisson's ratio from which on they are nearly ours
-NONE = 1e30  # compliance to higher powers of J − 1: none of them
+INCOMPRESSIBLE = 0.495  # Poisson's ratio above which its laws are nearly ours
+NONE = 1e30  # coefficient that disables higher powers of J − 1
 BELOW, ABOVE = "P1", "P2"  # faces of a brick
 
 
 def deck(scene: Scene, bricks: Bricks) -> str:
-    """Return the text of the deck."""
+    """Return the text of the input deck."""
     supports = held(scene, bricks)
     pull = np.einsum("nrc,nc->nr", supports.axes, forces(scene, bricks))
     lines = ["*NODE, NSET=NALL", *_rows(bricks.positions, 1)]
@@ -130,7 +130,7 @@ def _rows(values: np.ndarray, first: int) -> Iterable[str]:
 
 
 def _elements(elements: np.ndarray) -> Iterable[str]:
-    """Each over two lines: sixteen entries are the most that one may have."""
+    """Yield the elements over two lines each, because a line has at most sixteen entries."""
     for i, nodes in enumerate((elements + 1).tolist(), 1):
         yield ", ".join(map(str, [i, *nodes[:15]])) + ","
         yield ", ".join(map(str, nodes[15:]))
@@ -138,19 +138,16 @@ def _elements(elements: np.ndarray) -> Iterable[str]:
 
 _HEADING = re.compile(r"^ *displacements .* and time +(\S+) *$", re.MULTILINE)
 PROGRAM, JOB = "ccx", "sheet"
-SAYS_ITS_VERSION = 201  # its exit status after `ccx -v`
+VERSION_STATUS = 201  # exit status of `ccx -v`
 
-# What of drawn sheets it is given, as scenes call it (`Scene.drawn_by`).
+# Features of drawn sheets that it is given (`Scene.drawn_by`).
 DRAWN = (*SHAPED, FIBRES, "sheet.taper_x", "sheet.taper_y", "patch")
 CHAINS = "actuators are not supported: it has no joint with a rest angle between rigid bodies"
 
 
 class CalculiX(Code):
-    """The plug-in.
-
-    settings: elements along the shorter side, near-square; layers of bricks, an even number; grading "edges"
-    or "uniform"; time_limit [s].
-    """
+    """The plug-in. settings: elements along the shorter side, near-square; layers of bricks, an even number;
+    grading "edges" or "uniform"; time_limit [s]."""
 
     name, called = "calculix", "CalculiX"
     needs = "the program ccx on the PATH (Debian: calculix-ccx)"
@@ -163,23 +160,23 @@ class CalculiX(Code):
     }
 
     def version(self) -> str | None:
-        """Return the program's, None where it is not there."""
+        """Return the program's version, None if it is not installed."""
         return _version(shutil.which(PROGRAM))
 
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
-        text, found = deck(scene, mesh), Reached(np.zeros_like(mesh.positions))
-        began = perf_counter()
-        with TemporaryDirectory(prefix="sheetbench-ccx-") as kept:
-            folder = Path(kept)
+        text, reached = deck(scene, mesh), Reached(np.zeros_like(mesh.positions))
+        start = perf_counter()
+        with TemporaryDirectory(prefix="sheetbench-ccx-") as name:
+            folder = Path(name)
             (folder / f"{JOB}.inp").write_text(text, encoding="ascii")
             try:
                 output_of([shutil.which(PROGRAM) or PROGRAM, JOB], folder, settings["time_limit"])
                 factor, u = displacements(_read(folder, "dat"), len(mesh.positions))
-                found = Reached(u, factor)
+                reached = Reached(u, factor)
             except Failed as error:
-                found = found._replace(note=f"CalculiX: {error}")
+                reached = reached._replace(note=f"CalculiX: {error}")
             count = iterations(_read(folder, "sta"))
-        return found._replace(iterations=count, seconds=perf_counter() - began)
+        return reached._replace(iterations=count, seconds=perf_counter() - start)
 
     def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
         if note := refusal(scene, CHAINS, BRICK_MOMENTS, LAWS, DRAWN):
@@ -196,8 +193,8 @@ class CalculiX(Code):
         if material.law is None or material.poisson >= INCOMPRESSIBLE:
             return ""
         return (
-            f"poisson = {material.poisson:g}: its rubbers take volume apart and are those of a scene near "
-            f"ν = ½ only; from {INCOMPRESSIBLE:g} on it is given them"
+            f"poisson = {material.poisson:g}: its rubber laws agree with a scene's near ν = ½ only; they are "
+            f"passed to it from {INCOMPRESSIBLE:g} on"
         )
 
 
@@ -213,14 +210,14 @@ def _version(program: str | None) -> str | None:
         return None
     printed = ""
     with suppress(Failed), TemporaryDirectory() as folder:
-        printed = output_of([program, "-v"], Path(folder), 10.0, fine=(0, SAYS_ITS_VERSION))
+        printed = output_of([program, "-v"], Path(folder), 10.0, fine=(0, VERSION_STATUS))
     match = re.search(r"Version +(\S+)", printed, re.IGNORECASE)
     return match.group(1) if match else "of unknown version"
 
 
 def displacements(dat: str, nodes: int) -> tuple[float, np.ndarray]:
-    """Return the load factor of the last increment, and its displacements (nodes, 3) [m], nan of nodes that
-    were not printed. Raises Failed for a file that does not have them."""
+    """Return the load factor of the last increment, and its displacements (nodes, 3) [m], NaN for missing
+    nodes. Raises Failed for a file without displacements."""
     headings = list(_HEADING.finditer(dat))
     if not headings:
         raise Failed("its .dat file has no displacements")
@@ -235,7 +232,7 @@ def displacements(dat: str, nodes: int) -> tuple[float, np.ndarray]:
 
 
 def iterations(sta: str) -> int:
-    """Equilibrium iterations, each one factorisation."""
+    """Return the number of equilibrium iterations, each with one factorisation."""
     rows = [line.split() for line in sta.splitlines()]
     counts = [int(row[3]) for row in rows if len(row) >= 7 and all(part.isdigit() for part in row[:4])]
     return max(sum(counts), 1)

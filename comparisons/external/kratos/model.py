@@ -1,14 +1,16 @@
 """Kratos' thin shell as a model: `ShellThinElementCorotational3D3N`, Kirchhoff's, with drilling rotations.
 
-It knows no transverse shear, so that edges along which nothing holds the director keep the twist that a plate
-with shear lets go within about its thickness: it is stiffer than our shell, by a share of h over the length.
+The element has no transverse shear. Edges with a free director keep a twist there that a plate with shear
+loses within about its thickness, so the model is stiffer than our shell by a fraction of h over the length.
 
-Kratos solves in a process of its own (`process`). A load in one step, in 4 if that does not converge, in 16
-if that does not. Everything of a scene but chains and edge moments. Needs the extra [kratos].
+Kratos solves in a process of its own (`process`), under the load in one step, then in 4 and in 16 steps if
+that does not converge. All parts of a scene but chains and edge moments are supported. Needs the extra
+[kratos].
 
-It is given arrays: triangles of a flat sheet, supports and forces. Cells of a grid in halves, diagonals by
-turns, so that the mesh mirrors itself where the number of cells is even. A node has the unknowns of
-displacement and rotation vector. A clamp holds all six, a hinge the displacement. SI.
+The process gets arrays: triangles of a flat sheet, supports and forces. Each cell of a grid is cut in two,
+with alternating diagonals, so that the mesh is symmetric if the number of cells is even. A node has a
+displacement and a rotation vector as unknowns. A clamp holds all six components, a hinge the displacement.
+SI.
 """
 
 from __future__ import annotations
@@ -46,7 +48,7 @@ from sheetbench.scenes.objects.sheet import Sheet
 
 @dataclass(frozen=True)
 class Triangles:
-    """plan: the cells, each cut in two; counts: of them along x and y."""
+    """A mesh of triangles; plan: cells, each cut in two; counts: number of cells along x and y."""
 
     KIND: ClassVar = "triangle"
     plan: MeshQuad
@@ -54,24 +56,24 @@ class Triangles:
 
     @classmethod
     def of(cls, sheet: Sheet, elements: int) -> Triangles:
-        """Elements along the shorter side, near-square and of one size."""
+        """Mesh a sheet with near-square cells of one size; elements: cells along the shorter side."""
         counts = near_square(sheet, elements)
         return cls(rectangle(sheet, counts), counts)
 
     @property
     def label(self) -> str:
-        """How many triangles there are, in words."""
+        """The number of triangles in words."""
         return f"{' × '.join(map(str, self.counts))} × 2 triangles"
 
     @cached_property
     def positions(self) -> np.ndarray:
-        """(n, 3) [m]."""
+        """Positions of the nodes (n, 3) [m]."""
         return np.column_stack([self.plan.p.T, np.zeros(self.plan.nvertices)])
 
     @cached_property
     def elements(self) -> np.ndarray:
         """Nodes of the triangles (2 nx ny, 3), normal along +z."""
-        cells, (nx, ny) = self.plan.t[[0, 3, 2, 1]].T, self.counts  # those of the plan run clockwise
+        cells, (nx, ny) = self.plan.t[[0, 3, 2, 1]].T, self.counts  # the plan's cells run clockwise
         places = self.plan.p[:, cells].mean(axis=2) / self.plan.p.max(axis=1)[:, None]
         falling = np.floor(places * [[nx], [ny]]).sum(axis=0) % 2 == 1
         cells[falling] = np.roll(cells[falling], -1, axis=1)
@@ -106,7 +108,7 @@ def problem(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> dict[str
 
 
 def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return which unknowns are held (n, 6), and at what at every load factor (steps, n, 6) [m, rad]."""
+    """Return whether unknowns are prescribed (n, 6), and at what values (steps, n, 6) [m, rad]."""
     held = np.zeros((len(mesh.positions), 6), dtype=bool)
     value = np.zeros((len(load_factors), *held.shape))
     for support in scene.supports:
@@ -129,7 +131,7 @@ def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.n
 
 
 def _forces(scene: Scene, mesh: Triangles) -> np.ndarray:
-    """Point loads and edge forces on the nodes (n, 3) [N]."""
+    """Return nodal forces (n, 3) [N] of point loads and edge loads."""
     out = point_loads(scene, mesh)
     for load in scene.loads:
         if isinstance(load, EdgeLoad):
@@ -153,11 +155,8 @@ MOMENTS = "moments on Kratos' nodes do not follow the edge"
 
 
 class Kratos(Code):
-    """The plug-in.
-
-    settings: elements along the shorter side, near-square, each two triangles; time_limit [s] of every
-    attempt.
-    """
+    """Kratos as a plug-in. settings: elements, near-square cells along the shorter side, each of two
+    triangles; time_limit [s] of each attempt."""
 
     name, called = "kratos", "Kratos' thin shell"
     needs = "the wheels of Kratos; pip install 'sheetbench[kratos]'"
@@ -166,7 +165,7 @@ class Kratos(Code):
     unknowns = 6
 
     def version(self) -> str | None:
-        """Of the wheels, None where one is missing."""
+        """Return the version of the wheels, None if one is missing."""
         try:
             return {metadata.version(package) for package in PACKAGES}.pop()
         except metadata.PackageNotFoundError:
@@ -181,32 +180,32 @@ class Kratos(Code):
         return Triangles.of(scene.sheet, settings["elements"])
 
     def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles) -> Reached:
-        found = Reached(np.zeros_like(mesh.positions))
+        reached = Reached(np.zeros_like(mesh.positions))
         for steps in STEPS:
-            given = problem(scene, mesh, np.arange(1, steps + 1) / steps)
+            arrays = problem(scene, mesh, np.arange(1, steps + 1) / steps)
             try:
-                answer = _solved(given, settings["time_limit"])
+                answer = _solve_in_process(arrays, settings["time_limit"])
             except Failed as error:
-                return found._replace(note=f"Kratos: {error}")
-            found = Reached(
+                return reached._replace(note=f"Kratos: {error}")
+            reached = Reached(
                 answer["displacement"],
                 float(answer["load_factor"]),
-                found.iterations + int(answer["iterations"]),
-                seconds=found.seconds + float(answer["seconds"]),
-                held=int(given["held"].sum()),
+                reached.iterations + int(answer["iterations"]),
+                seconds=reached.seconds + float(answer["seconds"]),
+                held=int(arrays["held"].sum()),
             )
-            if found.load_factor == 1.0 and np.isfinite(found.displacement).all():
+            if reached.load_factor == 1.0 and np.isfinite(reached.displacement).all():
                 break
-        return found
+        return reached
 
 
-def _solved(given: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:
-    """Return what the process answers. Raises Failed where it does not."""
-    with TemporaryDirectory(prefix="sheetbench-kratos-") as kept:
-        question, answer = Path(kept) / "problem.npz", Path(kept) / "answer.npz"
-        np.savez(question, **given)
+def _solve_in_process(problem: Mapping[str, Any], limit: float) -> dict[str, np.ndarray]:
+    """Run `comparisons.external.kratos.process` and return its arrays. Raises Failed without an answer."""
+    with TemporaryDirectory(prefix="sheetbench-kratos-") as folder:
+        question, answer = Path(folder) / "problem.npz", Path(folder) / "answer.npz"
+        np.savez(question, **problem)
         module = "comparisons.external.kratos.process"
-        output_of([sys.executable, "-m", module, str(question), str(answer)], Path(kept), limit)
+        output_of([sys.executable, "-m", module, str(question), str(answer)], Path(folder), limit)
         try:
             with np.load(answer) as arrays:
                 return dict(arrays)

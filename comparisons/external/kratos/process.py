@@ -1,10 +1,10 @@
 """The process in which Kratos solves: `python -m comparisons.external.kratos.process PROBLEM ANSWER`.
 
-Apart from ours, for Kratos prints as it is imported, and a fault in it takes its process down. Reads arrays
-of the file PROBLEM (`comparisons.external.kratos.model`), and leaves in ANSWER displacement (n, 3) [m], the
-load factor of the last step that converged, and the number of iterations, each one factorisation.
+Kratos has its own process because it prints on import and a crash in it ends the process. The arrays of the
+file PROBLEM are described in `comparisons.external.kratos.model`. ANSWER holds displacement (n, 3) [m], the
+load factor of the last converged step, and the number of iterations, each with one factorisation.
 
-Newton's method at rising load factors, from where the last one ended.
+Newton's method runs at increasing load factors, each step from the last step's state.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-CORRECTION = 1e-8  # of the displacement, with which a step ends: the residual is rounding by then
-ITERATIONS = 25  # of a step
+CORRECTION = 1e-8  # of the displacement: the last of a step; the residual is rounding by then
+ITERATIONS = 25  # per step
 COMPONENTS = "XYZ"
 
 
 def solve(problem: Any) -> dict[str, Any]:
-    """Return the answer to the problem's arrays."""
+    """Solve the problem of the given arrays."""
     import KratosMultiphysics as kratos
     import KratosMultiphysics.StructuralMechanicsApplication as mechanics
 
@@ -34,32 +34,33 @@ def solve(problem: Any) -> dict[str, Any]:
     for variable in (*motions, *loads, *pressures):
         part.AddNodalSolutionStepVariable(variable)
     nodes = [part.CreateNewNode(i, *map(float, at)) for i, at in enumerate(problem["positions"], 1)]
-    of = part.CreateNewProperties(1)
+    material = part.CreateNewProperties(1)
     young, poisson, density, thickness = map(float, problem["material"])
-    of[kratos.YOUNG_MODULUS], of[kratos.POISSON_RATIO] = young, poisson
-    of[kratos.DENSITY], of[kratos.THICKNESS] = density, thickness
-    of[kratos.CONSTITUTIVE_LAW] = mechanics.LinearElasticPlaneStress2DLaw()
+    material[kratos.YOUNG_MODULUS], material[kratos.POISSON_RATIO] = young, poisson
+    material[kratos.DENSITY], material[kratos.THICKNESS] = density, thickness
+    material[kratos.CONSTITUTIVE_LAW] = mechanics.LinearElasticPlaneStress2DLaw()
     corners = (problem["elements"] + 1).tolist()
     kind = f"ShellThinElementCorotational3D{len(corners[0])}N"
     for i, corner in enumerate(corners, 1):
-        part.CreateNewElement(kind, i, corner, of)
-    pulled = np.flatnonzero(problem["force"].any(axis=1))
-    for i, node in enumerate(pulled.tolist(), 1):
-        part.CreateNewCondition("PointLoadCondition3D1N", i, [node + 1], of)
+        part.CreateNewElement(kind, i, corner, material)
+    loaded = np.flatnonzero(problem["force"].any(axis=1))
+    for i, node in enumerate(loaded.tolist(), 1):
+        part.CreateNewCondition("PointLoadCondition3D1N", i, [node + 1], material)
     pressure = float(problem["pressure"])
     if pressure:
-        for i, corner in enumerate(corners, len(pulled) + 1):
-            part.CreateNewCondition(f"SurfaceLoadCondition3D{len(corner)}N", i, corner, of)
+        for i, corner in enumerate(corners, len(loaded) + 1):
+            part.CreateNewCondition(f"SurfaceLoadCondition3D{len(corner)}N", i, corner, material)
 
-    def motion(name: str) -> list[Any]:
+    def components(name: str) -> list[Any]:
         return [kratos.KratosGlobals.GetVariable(f"{name}_{axis}") for axis in COMPONENTS]
 
-    moving = [*motion("DISPLACEMENT"), *motion("ROTATION")]
-    for variable, reaction in zip(moving, [*motion("REACTION"), *motion("REACTION_MOMENT")], strict=True):
+    unknowns = [*components("DISPLACEMENT"), *components("ROTATION")]
+    reactions = [*components("REACTION"), *components("REACTION_MOMENT")]
+    for variable, reaction in zip(unknowns, reactions, strict=True):
         kratos.VariableUtils().AddDof(variable, reaction, part)
     held = problem["held"]
     for node, unknown in np.argwhere(held):
-        nodes[node].Fix(moving[unknown])
+        nodes[node].Fix(unknowns[unknown])
     from KratosMultiphysics import python_linear_solver_factory as factory
 
     scheme = kratos.ResidualBasedIncrementalUpdateStaticScheme()
@@ -71,7 +72,7 @@ def solve(problem: Any) -> dict[str, Any]:
     )
     strategy.SetEchoLevel(0)
     strategy.Initialize()
-    reached, iterations, began = 0.0, 0, perf_counter()
+    reached, iterations, start = 0.0, 0, perf_counter()
     answer = np.zeros_like(problem["positions"])
     for step, load_factor in enumerate(problem["load_factors"].tolist(), 1):
         part.CloneTimeStep(float(step))
@@ -81,12 +82,12 @@ def solve(problem: Any) -> dict[str, Any]:
             node.SetSolutionStepValue(kratos.VOLUME_ACCELERATION, acceleration)
             if pressure:
                 node.SetSolutionStepValue(kratos.NEGATIVE_FACE_PRESSURE, load_factor * pressure)
-        for node in pulled.tolist():
+        for node in loaded.tolist():
             force = kratos.Array3([load_factor * float(c) for c in problem["force"][node]])
             nodes[node].SetSolutionStepValue(mechanics.POINT_LOAD, force)
         for node, unknown in np.argwhere(held):
             value = float(problem["value"][step - 1, node, unknown])
-            nodes[node].SetSolutionStepValue(moving[unknown], value)
+            nodes[node].SetSolutionStepValue(unknowns[unknown], value)
         strategy.InitializeSolutionStep()
         strategy.Predict()
         converged = strategy.SolveSolutionStep()
@@ -96,11 +97,11 @@ def solve(problem: Any) -> dict[str, Any]:
             break
         reached = load_factor
         answer = np.array([list(node.GetSolutionStepValue(kratos.DISPLACEMENT)) for node in nodes])
-    seconds = perf_counter() - began
+    seconds = perf_counter() - start
     return {"displacement": answer, "load_factor": reached, "iterations": iterations, "seconds": seconds}
 
 
 if __name__ == "__main__":
-    with np.load(sys.argv[1]) as given:
-        arrays = solve(dict(given))
+    with np.load(sys.argv[1]) as file:
+        arrays = solve(dict(file))
     np.savez(sys.argv[2], **arrays)

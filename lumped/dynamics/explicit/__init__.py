@@ -1,1 +1,1 @@
-"""Explicit integrators: compiled Verlet steps at a packing's places, their limits, projected constraints."""
+"""Explicit integration: velocity Verlet, its compiled steps at the places of a packing, and its limits."""

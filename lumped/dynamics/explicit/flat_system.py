@@ -1,6 +1,6 @@
-"""A system as arrays for steps that are compiled: all but chains, whose constraints and joints are not.
+"""A system without chains as arrays for compiled steps.
 
-What is prescribed over time, and the factors of loads, are tabulated for a number of steps at a time.
+Prescribed motions and the factors of loads are tabulated for a number of steps at a time.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ from lumped.dynamics.explicit.steps import ExplicitArrays, ExplicitLoads, march
 from lumped.dynamics.system import State, System
 from sheetbench.numerics.time.method import Advance, StepFailed
 
-CALL, PER_SPRING = 0.03, 1e-8  # s that a call takes, about, and a step of a spring
+CALL, PER_SPRING = 0.03, 1e-8  # approximate time [s] of a call, and of a step of a spring
 LEAST = 8  # steps of a call
 
 
 class FlatSystem:
-    """A system without chains at the places of a packing. arrays: what compiled steps take; at_once: steps of
-    a call."""
+    """A system without chains at the places of a packing. arrays: for compiled steps; at_once: number of
+    steps of a call."""
 
     def __init__(self, system: System):
         lattice, packing, parts = system.assembly.lattice, system.packing, system.problem.loads.parts
@@ -53,42 +53,42 @@ class FlatSystem:
         )
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
-        """At most so many steps, as many as take some hundredths of a second, or `LEAST`; fewer before one
-        that fails. Raises StepFailed where the first one fails."""
+        """Return at most `most` steps, as many as take some hundredths of a second, at least `LEAST`, fewer
+        before a step that fails. Raises StepFailed if the first one fails."""
         count = min(most, self.at_once)
         while True:
             vectors = [self._flat(vector) for vector in (state.u, state.v, state.a)]
-            times = np.cumsum(np.append(state.time, np.full(count, step)))  # as they add up one by one
-            tables = self._factors(times), *self._placed(times)
-            whole, taken, dissipated, work = march(count, step, self.arrays, *tables, *vectors)
-            if whole:
-                after = State(float(times[taken]), *(vector[self._places] for vector in vectors))
-                return Advance(after, dissipated, work, taken)
-            if taken == 0:
+            times = np.cumsum(np.append(state.time, np.full(count, step)))  # summed step by step
+            tables = self._factors(times), *self._prescribed(times)
+            finite, steps, dissipated, work = march(count, step, self.arrays, *tables, *vectors)
+            if finite:
+                after = State(float(times[steps]), *(vector[self._places] for vector in vectors))
+                return Advance(after, dissipated, work, steps)
+            if steps == 0:
                 raise StepFailed("a number overflowed")
-            count = taken
+            count = steps
 
     def compile(self) -> None:
-        """Compile the steps, or load what was compiled, before there is anything to do."""
-        still, at_once = np.zeros((3, *self.arrays.mass.shape)), np.zeros(1)
-        march(0, 1.0, self.arrays, self._factors(at_once), *self._placed(at_once), *still)
+        """Compile the steps, or load them from the cache, by a call of no steps."""
+        vectors, times = np.zeros((3, *self.arrays.mass.shape)), np.zeros(1)
+        march(0, 1.0, self.arrays, self._factors(times), *self._prescribed(times), *vectors)
 
     def _flat(self, vector: np.ndarray) -> np.ndarray:
-        """A vector (n, 3) at the places, (3 s,)."""
+        """Return a vector (n, 3) at the places, (3 s,)."""
         out = np.zeros(self._size)
         out[self._places] = vector
         return out
 
     def _factors(self, times: np.ndarray) -> np.ndarray:
-        """Factors of the loads' histories at times (k,) [s], (k, parts)."""
+        """Return the factors of the loads' histories at times (k,) [s], (k, parts)."""
         ones = np.ones(len(times))
         return np.stack([ones if p.history is None else p.history.at(times) for p in self._parts], axis=1)
 
-    def _placed(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement [m] of what is driven, and its velocity [m/s], at times (k,) [s]: (k, driven) each."""
+    def _prescribed(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return prescribed displacements [m] and velocities [m/s] at times (k,) [s], (k, driven) each."""
         if not len(self._driven):
-            nothing = np.empty((len(times), 0))
-            return nothing, nothing
+            empty = np.empty((len(times), 0))
+            return empty, empty
         system, (rows, axes) = self._system, self._driven.T
         place, rate = np.zeros((2, len(times), *system.prescribed.components.shape))
         for moved, axis, course in system.prescribed.by_supports:
@@ -98,19 +98,20 @@ class FlatSystem:
             for at, time in enumerate(times):
                 place[at] += system.coupling.driven(system.drive(time))
                 rate[at] += system.coupling.driven_velocity(time)
-        # in rows, as they are where nothing is driven, or steps are compiled a second time
+        # C order, as without prescribed motions, or steps are compiled a second time
         return np.ascontiguousarray(place[:, rows, axes]), np.ascontiguousarray(rate[:, rows, axes])
 
 
 def _freedom(system: System) -> tuple[np.ndarray, np.ndarray]:
-    """Which components can move, (n, 3) bool, and columns (h, layers) of those, flat, whose mean is held."""
+    """Return whether components can move, (n, 3) bool, and the columns (h, layers) of flat components whose
+    mean is held."""
     entries = system.transform.tocoo()
     free = np.zeros(system.transform.shape[0], dtype=bool)
     free[entries.row] = True
-    own = np.empty(system.transform.shape[1], dtype=int)
-    own[entries.col[entries.data > 0.0]] = entries.row[entries.data > 0.0]
-    held = entries.data < 0.0  # the last of a column is less the sum of the others
-    rows, others = entries.row[held], own[entries.col[held]]
+    component = np.empty(system.transform.shape[1], dtype=int)
+    component[entries.col[entries.data > 0.0]] = entries.row[entries.data > 0.0]
+    held = entries.data < 0.0  # the last of a column is minus the sum of the others
+    rows, others = entries.row[held], component[entries.col[held]]
     layers = system.assembly.lattice.grid[2]
     order = np.argsort(rows, kind="stable")
     rows, others = rows[order].reshape(-1, layers - 1), others[order].reshape(-1, layers - 1)

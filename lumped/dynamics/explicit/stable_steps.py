@@ -1,15 +1,14 @@
-"""Steps and damping for whoever moves a lattice in a loop of his own, each mass by itself.
-
-With a(x, v) the acceleration, dampers included, at a place and a velocity:
+"""Stable steps and damping of a lattice for time loops of other programs, with an acceleration a(x, v) of
+each mass, dampers included, at its place and velocity:
 
     symplectic Euler   v ← v + h a(x, v),  x ← x + h v
     velocity Verlet    w = v + h/2 a(x, v),  x ← x + h w,  v ← w + h/2 a(x, w)
 
-A motion of frequency ω and damping c is multiplied in a step by a matrix of two rows, and stays as long as
-|trace| ≤ 1 + det and det ≤ 1 (Jury). That is asked of every ω up to the lattice's highest, ω_max, with its
-damping: c = α + β ω² where dampers are in proportion to masses and stiffness, else every c up to the largest.
-Undamped both limits are 2/ω_max; large rotations and tension raise ω_max, so less is advised. ω_max is that
-of the flat sheet or of its equilibrium, whichever is higher.
+A motion of frequency ω and damping c is multiplied in a step by a 2 × 2 matrix, and stays bounded as long as
+|trace| ≤ 1 + det and det ≤ 1 (Jury). The condition must hold for every ω up to the lattice's highest, ω_max,
+with its damping: c = α + β ω² for dampers proportional to masses and stiffness, else every c up to the
+largest. Undamped both limits are 2/ω_max; large rotations and tension raise ω_max, so a shorter step is
+advised. ω_max is the higher frequency of the flat sheet and its equilibrium.
 """
 
 from __future__ import annotations
@@ -24,8 +23,8 @@ from lumped.dynamics.explicit.step_limit import SAFETY, TOUCHING, step_limit
 from lumped.dynamics.system import System
 
 Pair = tuple[Any, Any]  # place and velocity
-TRIED, MODES = 4000, 64  # steps up to one that is unstable; frequencies up to the highest
-FOREVER = 1e9  # s, when every history has its last value
+TRIED, MODES = 4000, 64  # numbers of steps and of frequencies that are examined
+FOREVER = 1e9  # s: every history has its last value
 
 
 def symplectic_euler(x: Any, v: Any, h: Any, acceleration: Callable[[Any, Any], Any]) -> Pair:
@@ -46,9 +45,9 @@ LOOPS = {"symplectic_euler": symplectic_euler, "velocity_verlet": velocity_verle
 
 @dataclass(frozen=True)
 class StableSteps:
-    """advised: step [s] by loop, this share of its limit; frequencies [Hz]: the highest, and the lowest of
-    the flat sheet; exact: whether a somewhat longer step is unstable, as where dampers are in proportion and
-    nothing is touched."""
+    """Stable steps of a lattice. advised: step [s] by loop, `share` of its limit; highest, lowest: [Hz]
+    frequencies, the lowest of the flat sheet; exact: whether a step beyond the limit is unstable, which holds
+    for proportional dampers without obstacles."""
 
     advised: dict[str, float]
     highest: float
@@ -58,19 +57,20 @@ class StableSteps:
 
     @property
     def critical_rate(self) -> float:
-        """Damping in proportion to masses [1/s] at which the lowest mode just does not swing, without the
-        springs' dampers."""
+        """Critical damping of the lowest mode by damping proportional to masses [1/s], without the springs'
+        dampers."""
         return 4.0 * np.pi * self.lowest
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        own = {"largest_step": self.advised, "exact": self.exact, "critical_damping_rate": self.critical_rate}
-        return {**own, "highest_frequency": self.highest, "lowest_frequency": self.lowest}
+        """Return the steps as a JSON object."""
+        steps = {"largest_step": self.advised, "exact": self.exact}
+        rate = {"critical_damping_rate": self.critical_rate}
+        return {**steps, **rate, "highest_frequency": self.highest, "lowest_frequency": self.lowest}
 
 
 def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) -> StableSteps:
-    """Return the steps of a system whose masses are those of the loop; shapes: displacements (size, 3) [m]
-    between which it moves; lowest: natural frequency [Hz]."""
+    """Return the stable steps of a system with the loop's masses; shapes: displacements (size, 3) [m] of the
+    motion's extremes; lowest: natural frequency [Hz]."""
     limits = [step_limit(system, u, FOREVER) for u in shapes]
     highest = max(limit.frequency for limit in limits)
     resistance = max(2.0 * limit.damping_ratio * limit.frequency for limit in limits)
@@ -82,14 +82,15 @@ def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) ->
 
 
 def limit_of(loop: str, frequency: float, resistance: float = 0.0, rate: float | None = 0.0) -> float:
-    """Return the largest stable step [s] of a loop for frequencies up to one [rad/s]; resistance: damping at
-    the highest [1/s], of which `rate` in proportion to masses; None: damping that may go with any of them."""
+    """Return the largest stable step [s] of a loop for all frequencies up to `frequency` [rad/s]; resistance:
+    damping [1/s] at the highest; rate: part of it proportional to masses, or None for damping that is not
+    proportional, up to `resistance` at every frequency."""
     shares = np.linspace(0.0, 1.0, MODES + 1)[1:]
     omega, damping = frequency * shares, np.zeros(MODES)
     if rate is not None:
         damping = rate + (resistance - rate) * shares**2
     elif resistance > 0.0:
-        omega, damping = (each.ravel() for each in np.meshgrid(omega, resistance * shares))
+        omega, damping = (grid.ravel() for grid in np.meshgrid(omega, resistance * shares))
     longest = 4.0 / max(frequency, 0.5 * resistance)
     h = longest * np.linspace(0.0, 1.0, TRIED + 1)[1:, None]
 

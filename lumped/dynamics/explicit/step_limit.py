@@ -1,8 +1,8 @@
 """The highest frequency of a lattice, and the largest stable step of explicit integration.
 
-ω_max² is the largest eigenvalue of M⁻¹K on the free motions, by Lanczos; c_max that of M⁻¹C, and
-ξ = c_max/2ω_max. A motion of frequency ω and damping c = 2 ξ ω is multiplied in a step of velocity Verlet,
-which looks at the dampers twice, by the matrix of
+ω_max² is the largest eigenvalue of M⁻¹K on the free motions, by Lanczos, c_max the largest eigenvalue of
+M⁻¹C, and ξ = c_max/2ω_max. A motion of frequency ω and damping c = 2 ξ ω is multiplied in a step of velocity
+Verlet, with two evaluations of the dampers, by the matrix of
 
     det = 1 − z + z²/2 − xz/4,   trace = 2 − x − z + z²/2 + xz/4,   x = (ω h)²,  z = c h.
 
@@ -10,11 +10,11 @@ Both its eigenvalues stay within the unit circle as long as |trace| ≤ 1 + det 
 
     z ≤ 2  and  x ≤ 4 − 2z + z²:   h ≤ (2/ω_max)/(ξ + √(1 − 3ξ²)) for ξ < 1/2,  (1/ω_max)/ξ beyond.
 
-Undamped that is 2/ω_max, and it is never below (2/ω_max)(√(1 + ξ²) − ξ), the limit of central differences
-with the velocity half a step old (Belytschko, Liu and Moran 2000, section 6.2). Where damping is proportional
-to stiffness and mass the slower motions lie within the limit when the fastest does, and the limit is exact.
-Elsewhere every x up to (ω_max h)² may come with every z up to c_max h: then the smallest x of the boundary
-counts, which is 3 from z = 1 on.
+The undamped limit is 2/ω_max, and a damped one is never below (2/ω_max)(√(1 + ξ²) − ξ), the limit of central
+differences with the velocity half a step old (Belytschko, Liu and Moran 2000, section 6.2). For damping
+proportional to stiffness and mass the slower motions lie within the limit when the fastest does, and the
+limit is exact. For other damping every x up to (ω_max h)² may occur with every z up to c_max h: then the
+smallest x of the boundary counts, which is 3 from z = 1 on.
 """
 
 from __future__ import annotations
@@ -27,14 +27,13 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from lumped.dynamics.system import System
 
-SAFETY, TOUCHING = 0.9, 0.8  # share of the limit, and where obstacles are touched (`lumped.contact`)
-STEPS, GROWN = 400, 100.0  # of a measured limit, and times the start from which on motions are unbounded
+SAFETY, TOUCHING = 0.9, 0.8  # advised share of the limit, without and with obstacles (`lumped.contact`)
 
 
 @dataclass(frozen=True)
 class StepLimit:
-    """ω_max [rad/s], damping ratio ξ there, the largest stable step [s], whether it is exact, and which share
-    of it to take."""
+    """Limit of stability. frequency: ω_max [rad/s]; damping_ratio: ξ at ω_max; step: the largest stable one
+    [s]; exact: whether it is exact; safety: share of it that is advised."""
 
     frequency: float
     damping_ratio: float
@@ -44,16 +43,16 @@ class StepLimit:
 
     @property
     def advised(self) -> float:
-        """A step with some distance to the limit [s]: large rotations and tension raise ω_max a little."""
+        """Advised step [s], shorter than the limit since large rotations and tension raise ω_max a little."""
         return self.safety * self.step
 
     @property
     def share(self) -> float:
-        """The step over that without dampers."""
+        """Ratio of the step to the undamped limit."""
         return 0.5 * self.frequency * self.step
 
     def describe(self) -> str:
-        """The limit and where it comes from."""
+        """Return the limit and its origin as text."""
         turn = self.frequency * self.step
         law = "2/ω_max" if self.damping_ratio == 0.0 else f"{turn:.3g}/ω_max"
         return (
@@ -63,70 +62,60 @@ class StepLimit:
 
 
 def turn_limit(ratio: float, exact: bool = True) -> float:
-    """ω_max h at the limit for a damping ratio ξ at ω_max; exact: for damping in proportion to stiffness and
-    mass, else for dampers of any kind."""
+    """Return ω_max h at the limit for a damping ratio ξ at ω_max; exact: for damping proportional to
+    stiffness and mass, else for any damping."""
     if not exact and ratio > 0.5 / math.sqrt(3.0):
         return min(math.sqrt(3.0), 1.0 / ratio)
     return 2.0 / (ratio + math.sqrt(1.0 - 3.0 * ratio**2)) if ratio < 0.5 else 1.0 / ratio
 
 
 def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
-    """The limit at displacement u (size, 3) [m] and a time [s], at rest, where the air does not resist."""
-    nothing = np.zeros_like(u)
-    stiffness = system.matrix(u, nothing, time, 0.0, 0.0, 1.0)
+    """Return the stability limit of explicit integration about a state at rest.
+
+    Parameters
+    ----------
+    system : System
+        Equations of motion.
+    u : ndarray of shape (size, 3)
+        Displacement [m].
+    time : float, default 0
+        Time [s] of commands and natural state.
+
+    Returns
+    -------
+    StepLimit
+        Highest frequency [rad/s], damping ratio and largest stable step [s]; without the air's drag, which
+        vanishes at rest.
+
+    Notes
+    -----
+    Jury's criterion for velocity Verlet; the module `lumped.dynamics.explicit.step_limit` derives it.
+    """
+    rest = np.zeros_like(u)
+    stiffness = system.matrix(u, rest, time, 0.0, 0.0, 1.0)
     touching = sum(item.stiffest(system.lattice_mass) for item in system.items)
-    frequency = math.sqrt(max(_largest(system, stiffness), 0.0) + touching)
+    frequency = math.sqrt(max(_largest_eigenvalue(system, stiffness), 0.0) + touching)
     ratio = 0.0
     if system.resists:
-        damping = system.matrix(u, nothing, time, 0.0, 1.0, 0.0)
-        ratio = _largest(system, damping) / (2.0 * frequency) if damping.any() else 0.0
+        damping = system.matrix(u, rest, time, 0.0, 1.0, 0.0)
+        ratio = _largest_eigenvalue(system, damping) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
     safety = TOUCHING if system.items else SAFETY
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact, safety)
 
 
-def measured_limit(system: System, u: np.ndarray) -> float:
-    """Return the longest step [s], within 1 %, for which `STEPS` steps of small motions about a displacement
-    (size, 3) [m] stay bounded, whatever kinds of dampers there are: between half and 2.5 times
-    `step_limit`."""
-    moving, nothing, limit = ~system.algebraic, np.zeros_like(u), step_limit(system, u).step
-    stiffness, damping = (
-        system.problem.system.matrix(system.matrix(u, nothing, 0.0, 0.0, *shares))[moving][:, moving]
-        for shares in ((0.0, 1.0), (1.0, 0.0))
-    )
-    start = np.random.default_rng(0).standard_normal(stiffness.shape[0])
-
-    def bounded(h: float) -> bool:
-        x, v = start, np.zeros_like(start)
-        a = -system.solve_mass(stiffness @ x)
-        for _ in range(STEPS):
-            x, w, v = x + h * v + 0.5 * h * h * a, v + h * a, v + 0.5 * h * a
-            force = stiffness @ x
-            v -= 0.5 * h * system.solve_mass(force + damping @ w)
-            a = -system.solve_mass(force + damping @ v)
-            if not np.abs(x).max() < GROWN * np.abs(start).max():
-                return False
-        return True
-
-    low, high = 0.5 * limit, 2.5 * limit
-    while high > 1.01 * low:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if bounded(middle) else (low, middle)
-    return low
-
-
 def soften_items(system: System) -> None:
-    """Give a system's items the stiffness that they have in motion, by the springs' highest frequency."""
+    """Set the stiffness in motion of a system's items, by the springs' highest frequency."""
     if system.items:
         rest = system.prescribed.place(0.0)
         springs = system.assembly.tangent(rest)
-        squared = _largest(system, springs)
+        squared = _largest_eigenvalue(system, springs)
         for item in system.items:
             item.move_freely(system.lattice_mass, squared)
 
 
-def _largest(system: System, blocks: np.ndarray) -> float:
-    """Largest eigenvalue of M⁻¹A on the free motions, without the multipliers, which have no mass."""
+def _largest_eigenvalue(system: System, blocks: np.ndarray) -> float:
+    """Return the largest eigenvalue of M⁻¹A on the free motions, without multipliers, which have no mass."""
     size, moving = system.reduced_mass.shape[0], ~system.algebraic
     value = eigsh(
         system.problem.system.matrix(blocks)[moving][:, moving],

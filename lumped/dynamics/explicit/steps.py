@@ -1,12 +1,12 @@
-"""Steps of velocity Verlet in one compiled call, as `verlet` beside this file has them.
+"""Steps of velocity Verlet (`lumped.dynamics.explicit.verlet`) in one compiled call.
 
-Vectors are flat, at the places of a `lumped.springs.packing.Packing`. With the predicted velocity
-w = v₀ + h a₀ and the damping matrix D at u₁, which is symmetric, what D v₁ is beyond D w comes from one more
-pass over the dampers, and the power at a step's start is that at the end of the step before:
+Vectors are flat, at the places of a `lumped.springs.packing.Packing`. The predicted velocity is
+w = v₀ + h a₀, the damping matrix at u₁ D, which is symmetric. The difference of D v₁ and D w comes from one
+more pass over the dampers, and the power at a step's start is the power at the end of the step before:
 
     D v₁ = D w + D δ,   v₁·D v₁ = w·D w + 2 w·D δ + δ·D δ,   δ = v₁ − w.
 
-What is prescribed over time comes in tables, a row a moment.
+Prescribed motions come in tables, a row a time.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from sheetbench.numerics.options import inner, njit
 
 
 class ExplicitLoads(NamedTuple):
-    """dead: (parts, 3 s) [N], to be scaled by each history, the first by none; positions: at rest (3 s,) [m];
-    cells: (c, 4) places on the mid-surface of cells under pressure: (parts, c) [Pa]; columns: places
-    (e, 3, layers) of moments (e,) [N·m], as `lumped.pressure.add_couples` has them; owners: (e,) parts of
-    those."""
+    """Loads of explicit steps. dead: (parts, 3 s) [N], to be scaled by each history, the first by none;
+    positions: at rest (3 s,) [m]; cells: (c, 4) places on the mid-surface of cells under pressure: (parts, c)
+    [Pa]; columns: places (e, 3, layers) of moments (e,) [N·m] (`lumped.pressure.add_couples`); owners: (e,)
+    the moments' parts."""
 
     dead: np.ndarray
     positions: np.ndarray
@@ -39,10 +39,10 @@ class ExplicitLoads(NamedTuple):
 
 
 class ExplicitArrays(NamedTuple):
-    """What stays the same from step to step, at s places. mass, inverse_mass: (3 s,) [kg], the latter zero
-    where supports hold; rate: (3 s,) or empty, damping of each mass [N·s/m]; held: (h, layers) places whose
-    mean is held; driven: places that g(t) moves. damped, working: whether anything takes energy, whether
-    loads change or follow."""
+    """Constant arrays of explicit steps, at s places. mass, inverse_mass: (3 s,) [kg], [1/kg], the inverse
+    zero of held components; rate: (3 s,) or empty, damping of each mass [N·s/m]; held: (h, layers) places
+    whose mean is held; driven: places that g(t) moves; damped: whether there are dampers; working: whether
+    loads change or follow the sheet."""
 
     packing: Packing
     loads: ExplicitLoads
@@ -67,22 +67,22 @@ def march(
     v: np.ndarray,
     a: np.ndarray,
 ) -> tuple[bool, int, float, float]:
-    """Take u, v and a (3 s,) `steps` steps of h [s] on. factors: (steps + 1, parts) of the loads' histories;
-    place and place_rate: (steps + 1, driven) [m], [m/s].
+    """Advance u, v and a (3 s,) by `steps` steps of h [s]. factors: (steps + 1, parts) of the loads'
+    histories; place and place_rate: (steps + 1, driven) [m], [m/s] of prescribed motions.
 
-    Whether no number overflowed, else u, v and a are spoilt; the steps before that; the energy that dampers
-    took and the work done [J].
+    Return whether all numbers are finite (otherwise u, v and a are invalid), the number of finite steps, the
+    energy [J] that dampers took, and the work done [J].
     """
     size, count = arrays.packing.size, arrays.packing.layers * arrays.packing.plane
     packing, driven, rate, exerted = arrays.packing, arrays.driven, arrays.rate, zeros(len(arrays.driven))
     w, d, force, resisting = zeros(u.shape), zeros(u.shape), zeros(u.shape), zeros(u.shape)
     tile, load = zeros(packing.length), zeros(u.shape)
-    now, again = Scratch(u, w, force, tile), Scratch(u, d, resisting, tile)
+    predictor, corrector = Scratch(u, w, force, tile), Scratch(u, d, resisting, tile)
     before, taken, work, power = zeros(u.shape), 0.0, 0.0, 0.0
     add_loads(arrays, factors[0], u, load)
     if arrays.damped or len(driven):
         w[:] = v
-        power = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, now)[1]
+        power = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, predictor)[1]
         power += _resist(rate, v, force)
         for i in range(len(driven)):
             exerted[i] = _exerted(arrays, driven[i], a, force, load)
@@ -102,7 +102,7 @@ def march(
             load, before = before, load
             add_loads(arrays, factors[n + 1], u, load)
             work += _work_of_loads(arrays.loads.dead[0], before, load, d)
-        taking = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, now)[1]
+        taking = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, predictor)[1]
         taking += _resist(rate, w, force)
         if not _accelerate(0.5 * h, arrays, load, force, a, v):
             return False, n, taken, work
@@ -112,7 +112,7 @@ def march(
             resisting[:] = 0.0
             if packing.damped:
                 fresh = not packing.keeping
-                taking += at_places(fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, again)[1]
+                taking += at_places(fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, corrector)[1]
             taking += _resist(rate, d, resisting)
             for i in range(len(d)):
                 taking += 2.0 * w[i] * resisting[i]
@@ -121,7 +121,7 @@ def march(
             power = taking
             if not _accelerate(0.0, arrays, load, force, a, v):
                 return False, n, taken, work
-        for i in range(len(driven)):  # by the trapezoidal rule, and what the masses gain by their rates
+        for i in range(len(driven)):  # by the trapezoidal rule, and the gain of kinetic energy
             p, last = driven[i], exerted[i]
             exerted[i] = _exerted(arrays, p, a, force, load)
             work += 0.5 * (last + exerted[i]) * (place[n + 1, i] - place[n, i])
@@ -131,7 +131,7 @@ def march(
 
 @njit(**OPTIONS)
 def _resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
-    """Add the forces of the masses' own damping, if there is any; the power taken [W]."""
+    """Add the forces of the masses' damping, if any; return the power taken [W]."""
     power = 0.0
     for i in range(len(rate)):
         force[i] += rate[i] * v[i]
@@ -143,7 +143,8 @@ def _resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
 def _accelerate(
     half: float, arrays: ExplicitArrays, load: np.ndarray, force: np.ndarray, a: np.ndarray, v: np.ndarray
 ) -> bool:
-    """a = T M⁻¹ Tᵀ (load − force), and v by half a step [s] of it; whether all is finite."""
+    """Set a = T M⁻¹ Tᵀ (load − force), and advance v by `half` a step [s] of it; return whether all numbers
+    are finite."""
     inverse, lost, size = arrays.inverse_mass, 0.0, arrays.packing.size
     for q in range(THREE):
         for i in range(q * size, q * size + arrays.packing.layers * arrays.packing.plane):
@@ -165,13 +166,13 @@ def _accelerate(
 
 @inner(**OPTIONS)
 def _exerted(arrays: ExplicitArrays, p: int, a: np.ndarray, force: np.ndarray, load: np.ndarray) -> float:
-    """What holds a component [N]."""
+    """Return the force [N] that holds a component."""
     return arrays.mass[p] * a[p] + force[p] - load[p]
 
 
 @njit(**OPTIONS)
 def add_loads(arrays: ExplicitArrays, factors: np.ndarray, u: np.ndarray, load: np.ndarray) -> None:
-    """Put the loads at displacement u, scaled by the factors of their histories, in `load` [N]."""
+    """Set `load` [N] to the loads at displacement u, scaled by the factors of their histories."""
     packing, loads = arrays.packing, arrays.loads
     load[:] = loads.dead[0]
     for part in range(1, len(factors)):
@@ -192,7 +193,7 @@ def add_loads(arrays: ExplicitArrays, factors: np.ndarray, u: np.ndarray, load: 
 
 @njit(**OPTIONS)
 def _work_of_loads(still: np.ndarray, before: np.ndarray, after: np.ndarray, moved: np.ndarray) -> float:
-    """Work [J] of what loads are beyond those without a history, by the trapezoidal rule."""
+    """Return the work [J] of the loads less the constant dead loads, by the trapezoidal rule."""
     work = 0.0
     for i in range(len(moved)):
         work += (0.5 * (before[i] + after[i]) - still[i]) * moved[i]

@@ -3,15 +3,16 @@
     u₁ = u₀ + h v₀ + ½ h² a₀,    v₁ = v₀ + ½ h (a₀ + M⁻¹ f(u₁, v₀ + h a₀, t₁)),    a₁ = M⁻¹ f(u₁, v₁, t₁)
 
 The elastic forces are computed once a step; the damping forces twice, with the predicted and with the final
-velocity, since they at hand from half a step before would leave the scheme of first order. Undamped it is
-stable for ω h ≤ 2, damped as `lumped.dynamics.explicit.step_limit` has it. No chains: their constraints want
-an equation a step.
+velocity, since the forces of half a step before would make the scheme of first order. It is stable for
+ω h ≤ 2 undamped, with damping see `lumped.dynamics.explicit.step_limit`. It does not take chains, whose
+constraints need the solution of equations in each step.
 
-Dampers take the mean of their power at both ends of a step; with obstacles, whose dashpots come and go in ten
-steps, R̄·(u₁ − u₀ − h² (a₁ − a₀)/6), R̄ the mean of R₀ and of R₁ as predicted. With F the other forces the
-kinetic energy gains (F̄ − R̄)·h v̄, h v̄ = u₁ − u₀ + h² (a₁ − a₀)/4, the potential loses F̄·(u₁ − u₀) −
-h³ F''v³/12: but for what comes back as a contact ends that leaves (h²/6m) R̄ ΔF beside −R̄·(u₁ − u₀). By the
-mean power the balance of a flat landing would be off by up to 0.9 % of its fall for good, not 0.01 %.
+The energy taken by dampers is the mean of their power at both ends of a step times h; with obstacles, whose
+dashpots act for about ten steps, R̄·(u₁ − u₀ − h² (a₁ − a₀)/6), R̄ the mean of R₀ and the predicted R₁. For
+other forces F the kinetic energy gains (F̄ − R̄)·h v̄, h v̄ = u₁ − u₀ + h² (a₁ − a₀)/4, and the potential
+loses F̄·(u₁ − u₀) − h³ F''v³/12. Their difference, without the terms that return at the end of a contact, is
+(h²/6m) R̄ ΔF − R̄·(u₁ − u₀). The mean power would leave the balance of a flat landing permanently off by up
+to 0.9 % of its fall, not 0.01 %.
 """
 
 from __future__ import annotations
@@ -47,19 +48,19 @@ class Verlet(Integrator):
 
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit:
-        """The springs' and the dampers' limit of stability."""
+        """Return the limit of stability by springs and dampers."""
         _require_no_chains(system)
         return step_limit(system, u)
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
-        """Return steps in one compiled call; one at a time where there are branches, a natural state,
-        springs without an energy, air or bodies with moments of inertia. Raises StepFailed."""
+        """Return steps in one compiled call; a single step with branches, a natural state, springs without an
+        energy, items, air or bodies with moments of inertia. Raises StepFailed."""
         if self._flat is None:
             return super().march(state, step, most)
         return self._flat.march(state, step, most)
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
-        """One explicit step. Raises StepFailed when a number overflows."""
+        """Return one explicit step. Raises StepFailed when a number overflows."""
         system, h, time = self.system.within(state, at_most), at_most, state.time + at_most
         motion = system.prescribed
         u = state.u + h * state.v + 0.5 * h * h * state.a

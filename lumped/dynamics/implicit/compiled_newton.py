@@ -1,8 +1,8 @@
 """Newton's iteration for the equation of an implicit step, compiled: small lattices without chains.
 
 The force of all springs and dampers, the residual, the substitution with kept factors and the norm of the
-correction are one call that allocates nothing; Python makes the factors, where the tangent is put together.
-What it solves, and when it gives up, is as in `lumped.dynamics.implicit.newton`.
+correction are one call that allocates nothing; Python assembles and factors the tangent. For the equation and
+the limits of the iteration see `lumped.dynamics.implicit.newton`.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from sheetbench.numerics.sparse_products import Rows, add_product, csr_arrays
 
 
 class Arrays(NamedTuple):
-    """The equations of motion: forces, M, T with its columns in the band's order, how many they are, and the
-    band's width; and what the iteration is computed in: force and velocity, û and v̂ (n, 3), and the right
-    side in the band's order, padded."""
+    """The equations of motion and the work arrays of the iteration. forces, mass: of all rows; free: T with
+    its columns in the band's order; unknowns: number of columns; width: of the band; force, velocity, base_u,
+    base_v: (n, 3), the last two û and v̂; right: right side in the band's order, padded."""
 
     forces: MovingForces
     mass: Rows
@@ -37,8 +37,9 @@ class Arrays(NamedTuple):
 
 
 class NewtonLimits(NamedTuple):
-    """Of a correction's largest component [m]: below which it is the last, and above which the iteration is
-    lost; its ratio to the one before above which factors are stale; corrections of an equation at most."""
+    """Limits of a correction's largest component [m]: the last correction is below `tolerance`, a diverging
+    one above `largest`. stale: ratio of successive corrections above which factors are renewed; corrections:
+    largest number for an equation."""
 
     tolerance: float
     largest: float
@@ -47,7 +48,7 @@ class NewtonLimits(NamedTuple):
 
 
 class Compiled(NamedTuple):
-    """What the compiled iteration takes beside factors in a band; of that, û and v̂ (n, 3)."""
+    """Arguments of the compiled iteration except the factors; base_u, base_v: its û and v̂ (n, 3)."""
 
     arrays: Arrays
     base_u: np.ndarray
@@ -81,8 +82,9 @@ def iterate(
     arrays: Arrays,
     factors: np.ndarray,
 ) -> tuple[bool, int]:
-    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has corrections
-    `left`: whether that is done, and what corrections are left then, with other factors; 0 if it is lost."""
+    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has
+    corrections `left`: whether that is done, and what corrections are left then, with other factors; 0 if it
+    is lost."""
     last = np.inf
     while left > 0:
         length = correct(u, base_u, base_v, by, external, arrays, factors)
@@ -145,8 +147,8 @@ def excess(
     arrays: Arrays,
     factors: np.ndarray,
 ) -> float:
-    """Return half the work [J] of what a state (n, 3) leaves of the equation that has c₂ and c₁ along the
-    correction of that."""
+    """Return half the work [J] of the residual at a state (n, 3) along its own correction, in the equation
+    with c₂ and c₁."""
     corrected, base_u, base_v, work = u.copy(), arrays.base_u, arrays.base_v, 0.0
     for i in range(len(u)):
         for q in range(3):

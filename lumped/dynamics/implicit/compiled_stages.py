@@ -1,10 +1,9 @@
 """The stages of a Runge–Kutta step in one compiled call, where `compiled_newton` beside this file serves.
 
-Every stage begins from the ones before it, is corrected with the factors kept, and leaves its velocity,
-acceleration and the power that its dampers take, in tables whose first row is the step's start. The power is
-that after the last correction: what that corrects is small in the displacement, but lies along stiff
-springs, whose dampers take τ k v² of it, always of one sign. The call comes back early where a stage needs
-other factors, which Python makes, and goes on there.
+Every stage starts from the earlier ones, is corrected with the current factors, and puts its velocity,
+acceleration and damping power into tables whose first row is the step's start. The power is that after the
+last correction, which is small in the displacement but lies along stiff springs, whose dampers dissipate
+τ k v², always of one sign. The call returns early if a stage needs new factors, and resumes with them.
 """
 
 from __future__ import annotations
@@ -33,10 +32,10 @@ class Stages(NamedTuple):
 
 
 class Step(NamedTuple):
-    """What the stages of a step share: its length [s]; coefficients of velocities and accelerations, and of
-    the guess of an acceleration, (s, s); c₁ and c₂ of their equation; how far supports are from where the
-    stages' velocities lead, (s, n, 3) [m], and their velocity beside that at the start, (s, n, 3) [m/s], or
-    both empty; the loads, (s, n, 3) or (1, n, 3) if they stay the same [N]."""
+    """Common data of a step's stages: its length [s]; coefficients of velocities and accelerations, and of
+    the guess of an acceleration, (s, s); c₁ and c₂ of the equation; differences of the supports' places from
+    the places by the stages' velocities, (s, n, 3) [m], and of their velocities from the start's, (s, n, 3)
+    [m/s], or both empty; loads (s, n, 3), or (1, n, 3) if constant [N]."""
 
     length: float
     weights: np.ndarray
@@ -138,8 +137,8 @@ def largest(weights: np.ndarray, tables: np.ndarray) -> float:
 def polynomials(
     displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, h: float, theta: np.ndarray
 ) -> np.ndarray:
-    """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h [s], by
-    the polynomial with those of both its ends, the first and last of (s, n, 3) each."""
+    """Return displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step of length h
+    [s], by the polynomial through the first and the last of the stages (s, n, 3)."""
     u0, v0, a0 = displacement[0].ravel(), velocity[0].ravel(), acceleration[0].ravel()
     u1, v1, a1 = displacement[-1].ravel(), velocity[-1].ravel(), acceleration[-1].ravel()
     curve, out = empty((6, len(u0))), empty((3, len(theta), len(u0)))

@@ -3,11 +3,11 @@
     uᵢ = u₀ + h Σⱼ aᵢⱼ vⱼ,   vᵢ = v₀ + h Σⱼ aᵢⱼ v̇ⱼ,   M v̇ᵢ + f(uᵢ, vᵢ, tᵢ) = 0,   i = 2 … 7
     at the end of the step u₇, v₇
 
-with the coefficients of `tableau` beside this file. Every stage is one equation for uᵢ with the same factors,
-as aᵢᵢ = γ; the first is the last one's of the step before. The error of a step, h Σ (bᵢ − b̂ᵢ) vᵢ, is held
-relative to the largest displacement so far, or to a tenth of where the forces at the start lead. Energies
-taken by dampers and put in by loads and supports are h Σ bᵢ Pᵢ. What supports prescribe is taken as it is
-prescribed, at every stage.
+with the coefficients of `tableau`. Every stage is one equation for uᵢ with common factors, because aᵢᵢ = γ;
+the first stage is the last one of the previous step. The error of a step, h Σ (bᵢ − b̂ᵢ) vᵢ, is controlled
+relative to the largest displacement so far, or to a tenth of the displacement to which the forces at the
+start lead. Energies dissipated by dampers and supplied by loads and supports are h Σ bᵢ Pᵢ. Prescribed
+motions of supports are exact at every stage.
 
 Steps may be longer than the distance of samples, which lie within them (`esdirk_step`). They end where
 something changes its course: a load's history, a support's motion. No chains: their constraints would lower

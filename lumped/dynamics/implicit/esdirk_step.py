@@ -1,7 +1,7 @@
-"""A step of `esdirk` beside this file: its stages, and the motion between its ends.
+"""A step of `esdirk`: its stages, and the motion between its ends.
 
-Between the ends the motion is the polynomial of fifth degree with their displacements, velocities and
-accelerations, û, v̂ and â, and then, as stiff springs magnify what it misses, the solution of
+Between the ends the motion is the polynomial of fifth degree û, v̂, â through the displacements, velocities
+and accelerations of both ends, corrected, since stiff springs magnify its error, to the solution of
 
     M (â + c₂ (u − û)) + f(u, v̂ + c₁ (u − û), t) = 0,   c₁ = 1/(γh),   c₂ = c₁²,
 
@@ -28,8 +28,8 @@ POWERS = np.arange(len(CUMULATIVE))
 
 
 class EsdirkStep:
-    """A step of length h [s] from a state. stages: tables of them, the first the start; memories: what the
-    branches keep at each."""
+    """A step of length h [s] from a state. stages: their tables, the first row the start; memories: of the
+    material's branches at each stage."""
 
     def __init__(self, system: System, start: State, h: float):
         self.system, self.h, times = system, h, start.time + h * ABSCISSAE
@@ -44,7 +44,7 @@ class EsdirkStep:
         return State(float(of.time[i]), of.u[i], of.v[i], of.a[i], self.memories[i])
 
     def _relaxed(self, weights: np.ndarray) -> np.ndarray:
-        """A weighted sum of what the branches kept at the first stages."""
+        """Return a weighted sum of the branches' memories at the first stages."""
         parts = zip(weights, self.memories, strict=False)
         return np.sum([weight * memory[1:] for weight, memory in parts if memory is not None], axis=0)
 
@@ -55,13 +55,13 @@ class EsdirkStep:
         return self._relaxing(self.h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * self.h)
 
     def _relaxing(self, relaxed: np.ndarray, own: float) -> System:
-        """The equations with the branches as `Maxwell.stage` has them."""
+        """Return the equations of motion with branches by `Maxwell.stage`."""
         if self.system.maxwell is None or (start := self.memories[0]) is None:
             return self.system
         return self.system.with_branches(self.system.maxwell.stage(start, relaxed, own))
 
     def error_of_branches(self) -> float:
-        """Return the error of what the branches' springs remember, relative to the largest strain."""
+        """Return the error of the strains in the branches' springs, relative to the largest one."""
         maxwell, start = self.system.maxwell, self.memories[0]
         if maxwell is None or start is None:
             return 0.0
@@ -110,8 +110,8 @@ class EsdirkStep:
         return LatticeSamples(times, u, v, a, memories, taken, put_in)
 
     def _within(self, theta: np.ndarray) -> np.ndarray:
-        """Displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step: polynomials,
-        and what is prescribed as it is prescribed."""
+        """Return displacements, velocities and accelerations (3, k, n, 3) at shares θ (k,) of a step, by
+        polynomials, and for prescribed components by their course."""
         stages, motion = self.stages, self.system.prescribed
         if not motion.moving:
             return polynomials(stages.u, stages.v, stages.a, self.h, theta)

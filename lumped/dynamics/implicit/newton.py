@@ -1,10 +1,10 @@
 """Newton's iteration for implicit integrators, with factors kept from step to step.
 
-`solve` takes any equation of a system. `solve_equation` takes that of a step or a stage,
+`solve` solves any equation of a system. `solve_equation` solves the equation of a step or a stage,
 
     M c₂ (u − û) + f(u, v, t) = 0,   v = v̂ + c₁ (u − û),
 
-multipliers' rows of û and v̂ apart, and does it compiled where it can.
+except in the rows of multipliers, by compiled code where that exists.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ UNSOLVED = "the time step's equations did not converge: use smaller steps"
 
 
 class StepEquation(NamedTuple):
-    """The equation of a step or stage: time t [s], û and v̂ (size, 3), (c₂ [1/s²], c₁ [1/s]), of a system with
-    its branches there."""
+    """The equation of a step or stage: time t [s], û and v̂ (size, 3), (c₂ [1/s²], c₁ [1/s]), of a system
+    with its branches there."""
 
     system: System
     time: float
@@ -125,15 +125,26 @@ class Newton:
         return self.solve(*parts, limits.tolerance, stale=limits.stale)
 
     def excess(self, system: System, state: State, by: tuple[float, float]) -> float:
-        """Return the energy [J] that a state has too much by an equation that has c₂ and c₁, along stiff
-        directions most: half the work of what it leaves along the correction of that; infinite where no
-        factors kept serve. system: with its branches there."""
+        """Return the excess energy [J] of a state in an equation with c₂ and c₁, mostly along stiff
+        directions: half the work of its residual along its own correction; infinite without suitable factors.
+        system: with its branches at that time."""
         u, v, a = state.u, state.v, state.a
         if (compiled := self._compiled) is not None and self.near(by[0]):
             return excess(u, v, a, by, system.loads([state.time])[0], compiled.arrays, self._factors)
         left = system.problem.reduce(system.momentum(a) - system.unbalanced(u, v, state.time))
         factor = self._factor if self._key == by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
+
+    def correction(self, left: np.ndarray) -> np.ndarray | None:
+        """Return the change (n, 3) [m] with which the factors kept take a residual (m,) off, None without."""
+        problem, band = self._system.problem, self._system.problem.system.band
+        if self._factored is not None and band is not None:
+            found = banded.solve_unrefined(self._factors, band.width, band.order, left)
+        elif self._factor is not None:
+            found = self._factor.solve(left, SOLVED)
+        else:
+            return None
+        return problem.expand(found)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be

@@ -50,7 +50,7 @@ _EMBEDDED = (
 
 
 def _stages() -> np.ndarray:
-    """A, (7, 7): the first column is what makes the rows sum to the abscissae."""
+    """Return A, (7, 7), whose first column completes the rows' sums to the abscissae."""
     a = np.zeros((7, 7))
     for row, inner in enumerate(((), *_INNER, _LAST), start=1):
         a[row, 1 : 1 + len(inner)] = inner
@@ -60,8 +60,8 @@ def _stages() -> np.ndarray:
 
 
 def _cumulative() -> np.ndarray:
-    """Coefficients (8, 7) of θ⁰ to θ⁷: the integral from 0 to θ of what passes through the values at the
-    abscissae, corrected in proportion to θ so that it ends in the weights of the method."""
+    """Return the coefficients (8, 7) of θ⁰ to θ⁷: the integral from 0 to θ of what passes through the values
+    at the abscissae, corrected in proportion to θ so that it ends in the weights of the method."""
     found = np.zeros((8, 7))
     powers = np.linalg.inv(np.vander(ABSCISSAE, increasing=True))  # values → coefficients
     found[1:] = powers / np.arange(1.0, 8.0)[:, None]
@@ -70,9 +70,9 @@ def _cumulative() -> np.ndarray:
 
 
 def _guesses() -> np.ndarray:
-    """G, (7, 7): each stage's acceleration from those before, such that its displacement lies on the parabola
-    nearest to all their displacements and velocities, which are h² A² v̇ and h A v̇ beside where the start
-    alone leads."""
+    """Return G, (7, 7), the guess of each stage's acceleration from the earlier stages: its displacement lies
+    on the parabola nearest to their displacements and velocities, h² A² v̇ and h A v̇ without the part of the
+    start alone."""
     found = np.zeros((7, 7))
     found[1, 0] = 1.0
     for i in range(2, 7):

@@ -1,1 +1,1 @@
-"""Runs of a motion: the start, steps from sample to sample, what is sampled and kept, what ends one."""
+"""Runs of a motion: initial state, steps between samples, samples and their storage, end of a run."""

@@ -1,4 +1,4 @@
-"""The state that a run begins in."""
+"""The initial state of a run."""
 
 from __future__ import annotations
 
@@ -17,8 +17,29 @@ from sheetbench.scenes.meaning.motion import NO_START, at_start, let_go, starts_
 
 
 def in_motion(scene: Scene, calibration: Calibration, weights: Weights = "tributary") -> tuple[System, State]:
-    """Return the equations of a scene in motion, without the loads that it lets go, and the state to begin
-    in. Raises as `initial_state`."""
+    """Return the equations of motion of a scene and the initial state.
+
+    Parameters
+    ----------
+    scene : Scene
+        Sheet, supports, loads and commands; loads marked `hold` act before the motion only.
+    calibration : Calibration
+        Springs of the lattice.
+    weights : {"tributary", "full"}, default "tributary"
+        Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
+
+    Returns
+    -------
+    system : System
+        Forces, mass and constraints of the motion.
+    state : State
+        State at t = 0: displacement [m], velocity [m/s] and acceleration [m/s²], (size, 3) each.
+
+    Raises
+    ------
+    NoEquilibrium
+        If the motion starts from an equilibrium and there is no stable one.
+    """
     moving = let_go(scene)
     system = System(moving, build_problem(moving, calibration, weights))
     soften_items(system)
@@ -28,10 +49,11 @@ def in_motion(scene: Scene, calibration: Calibration, weights: Weights = "tribut
 def initial_state(
     system: System, calibration: Calibration, weights: Weights, scene: Scene | None = None
 ) -> State:
-    """At rest, flat or in the equilibrium that the scene starts from (`scenes.meaning.motion`), with the
-    acceleration that loads and commands give it at once. scene: the system's with the loads that it lets go.
+    """Return the state at rest, flat or in the equilibrium that the scene starts from
+    (`scenes.meaning.motion`), with its acceleration by loads and commands. scene: the system's scene with the
+    loads that are released.
 
-    Raises NoEquilibrium where there is no stable one.
+    Raises NoEquilibrium without a stable equilibrium.
     """
     u, scene = system.prescribed.place(0.0), system.scene if scene is None else scene
     if not starts_flat(scene):
@@ -45,12 +67,12 @@ def initial_state(
     v = v if system.prescribed.moving else np.zeros_like(u)
     a = system.accelerate(system.within(State(0.0, u, v, v, memory)).unbalanced(u, v, 0.0))
     if system.constrained:
-        u, a = _constrained(system, u, a)
+        u, a = _with_multipliers(system, u, a)
     return State(0.0, u, v, a, memory)
 
 
-def _constrained(system: System, u: np.ndarray, a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """u with the multipliers μ of the chains' constraints, and a less M⁻¹ Jᵀ μ, so that J times it vanishes.
+def _with_multipliers(system: System, u: np.ndarray, a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return u with the multipliers μ of the chains' constraints, and a less M⁻¹ Jᵀ μ, with which J a = 0.
 
     Only the chains' rows appear in J, and the mass couples them with nothing else: a small dense matrix
     J M⁻¹ Jᵀ. Source: Andersen (1983), RATTLE.
@@ -63,8 +85,8 @@ def _constrained(system: System, u: np.ndarray, a: np.ndarray) -> tuple[np.ndarr
     gradient = coupling.constraint_gradient(u)
     jacobian = gradient.reshape(len(gradient), -1) @ rows_of[:, unknown].toarray()
     weighted = np.linalg.solve(system.reduced_mass[unknown][:, unknown].toarray(), jacobian.T)
-    own = system.solve_mass(system.reduce(system.momentum(a)))[unknown]
-    multipliers = scipy.linalg.solve(jacobian @ weighted, jacobian @ own, assume_a="pos")
+    acceleration = system.solve_mass(system.reduce(system.momentum(a)))[unknown]
+    multipliers = scipy.linalg.solve(jacobian @ weighted, jacobian @ acceleration, assume_a="pos")
     rows, change = np.zeros(u.size), np.zeros(system.reduced_mass.shape[0])
     rows[3 * masses + order] = multipliers
     change[unknown] = weighted @ multipliers

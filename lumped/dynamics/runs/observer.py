@@ -1,8 +1,8 @@
-"""What a run says of its samples: energies, probes, reactions, actuator forces, as rows of numbers; strains,
-states that mean nothing, and where the sheet is fastest.
+"""Rows of numbers from the samples of a run: energies, probes, reactions, actuator forces; largest strains,
+invalid states, and the place of the fastest mass.
 
-All rows of a step in one compiled call, for systems without chains and branches; call
-by call for the others.
+Systems without chains, branches and items have all rows of a step in one compiled call; others one call a
+row.
 """
 
 from __future__ import annotations
@@ -25,12 +25,13 @@ from sheetbench.numerics.sparse_products import Rows, add_product, csr_arrays, p
 from sheetbench.runs.record import columns_of, width
 from sheetbench.scenes import outside_model
 
-ROUNDED = 1e-9  # of the energy of the flat sheet, of a natural state, below which all is rounding
+ROUNDED = 1e-9  # share of the flat sheet's energy by a natural state below which energies are rounding
 
 
 class Observed(NamedTuple):
-    """Forces; M; loads with a potential (n, 3) [N]; what takes a displacement to the probes', (3 p, 3 n), and
-    forces on masses to those of each support, (3 s, 3 n)."""
+    """Arrays of `observe`. forces: of the lattice; mass: M; dead: (n, 3) [N] loads with a potential; probes:
+    (3 p, 3 n) map of a displacement to the probes; supports: (3 s, 3 n) map of forces on masses to each
+    support's force."""
 
     forces: MovingForces
     mass: Rows
@@ -40,7 +41,7 @@ class Observed(NamedTuple):
 
 
 class LatticeObserver:
-    """The observer (`sheetbench.runs.run`) of a system. drawn: rows of the displacement that make a frame."""
+    """The observer (`sheetbench.runs.run`) of a system. drawn: rows of the displacement in a frame."""
 
     def __init__(self, system: System, drawn: np.ndarray | None = None):
         flat = np.zeros((system.assembly.pattern.size, 3))
@@ -49,9 +50,9 @@ class LatticeObserver:
         scene, lattice = system.scene, system.assembly.lattice
         self._probes = MidSurface(lattice, scene.probe_points())
         self._supports = list(system.problem.constraints.holders)
-        nothing = np.zeros((system.assembly.pattern.size, 3))
-        actuators = system.coupling.wrenches(nothing, nothing) if system.coupling is not None else {}
-        holders = system.coupling.reactions(nothing) if system.coupling is not None else {}
+        zero = np.zeros((system.assembly.pattern.size, 3))
+        actuators = system.coupling.wrenches(zero, zero) if system.coupling is not None else {}
+        holders = system.coupling.reactions(zero) if system.coupling is not None else {}
         exerting = [*self._supports, *(item.name for item in system.items), *holders]
         self.columns = columns_of(scene, exerting, actuators)
         self._width = width(self.columns)
@@ -68,19 +69,19 @@ class LatticeObserver:
             self._observed = typed(observed)
 
     def inspect(self, samples: LatticeSamples, count: int) -> tuple[np.ndarray, Fault | None]:
-        """Return the largest strain of a link in each of the first samples before one that means nothing, and
-        why that one does not: `lumped.statics.faults`."""
+        """Return the largest strain of a link in each of the first `count` samples before an invalid one, and
+        its fault (`lumped.statics.faults`)."""
         assembly, strains, fault = self._system.assembly, np.empty(0), None
         if assembly.natural is None:
             return inspect(assembly, samples.u[:count])
         while fault is None and len(strains) < count:
             i = len(strains)
-            found, fault = inspect(assembly.at(time=float(samples.time[i])), samples.u[i : i + 1])
-            strains = np.append(strains, found)
+            strain, fault = inspect(assembly.at(time=float(samples.time[i])), samples.u[i : i + 1])
+            strains = np.append(strains, strain)
         return strains, fault
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause where the law of strain does not hold that far, else ""."""
+        """Return a clause if a stretch is beyond the range of the law of strain, else ""."""
         system = self._system
         return "" if system.assembly.any_strain else outside_model(system.scene, stretch, STRETCH)
 
@@ -97,9 +98,9 @@ class LatticeObserver:
         system, rows = self._system, np.empty((len(samples.time), self._width))
         rows[:, 0], rows[:, 4], rows[:, 5] = samples.time, samples.dissipated, samples.work
         motion = system.prescribed
-        if motion.by_supports:  # integrators have the accelerations beside what is prescribed
-            placed = np.array([motion.support_acceleration(time) for time in samples.time.tolist()])
-            samples = samples._replace(a=samples.a + placed)
+        if motion.by_supports:  # integrators have the accelerations without the prescribed ones
+            prescribed = np.array([motion.support_acceleration(time) for time in samples.time.tolist()])
+            samples = samples._replace(a=samples.a + prescribed)
         if self._observed is None:
             for i, row in enumerate(rows):
                 self._fill(row, samples, i)
@@ -111,14 +112,15 @@ class LatticeObserver:
         return rows
 
     def _fill(self, row: np.ndarray, samples: LatticeSamples, i: int) -> None:
-        """Fill the row of sample i but for what it knows."""
+        """Set energies, probes and forces in the row of sample i."""
         system, u = self._system, samples.u[i]
         energies, exerted = system.balance(samples.state(i))
         row[1:4] = list(energies.values())
         reactions, _ = system.problem.constraints.reactions(exerted)
         parts = [self._probes.of(u), *(reactions[edge] for edge in self._supports)]
         state = samples.state(i)
-        parts.extend(one.exerted((u, system.drive(state.time)), state.v).sum(axis=0) for one in system.items)
+        at = u, system.drive(state.time)
+        parts.extend(item.exerted(at, state.v).sum(axis=0) for item in system.items)
         if system.coupling is not None:
             parts.extend(system.coupling.reactions(exerted).values())
             parts.extend(system.coupling.wrenches(u, exerted).values())
@@ -129,8 +131,8 @@ class LatticeObserver:
 def observe(
     u: np.ndarray, v: np.ndarray, a: np.ndarray, loads: np.ndarray, observed: Observed, rows: np.ndarray
 ) -> None:
-    """Fill the rows of states (k, n, 3) under loads (k, n, 3), or (1, n, 3) if they stay the same [N]: the
-    kinetic, elastic and potential energy [J], the probes' displacements [m], the supports' forces [N]."""
+    """Set the rows of states (k, n, 3) under loads (k, n, 3) [N], (1, n, 3) if constant: the kinetic, elastic
+    and potential energy [J], the probes' displacements [m], the supports' forces [N]."""
     mass, dead = observed.mass, observed.dead.ravel()
     first, last, exerted = 6, 5 + len(observed.probes.pointers), empty(u[0].shape)
     for k in range(len(u)):

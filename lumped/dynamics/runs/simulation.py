@@ -1,18 +1,21 @@
-"""Dynamics of a lattice from rest: a scene and springs in, a `History` out.
+"""Motion of a scene on a lattice from rest.
 
 Gravity, loads and commands act from t = 0 on, loads scaled by their histories. The sheet starts flat and at
-rest; with a curved support or a tilted clamp it starts in the shape that the supports alone give it, with
-`[initial]` in that of statics (`scenes.meaning.motion`). Samples are evenly spaced; steps divide their
+rest; with a curved support or a tilted clamp it starts in the equilibrium under the supports alone, with
+`[initial]` in the static equilibrium (`scenes.meaning.motion`). Samples are evenly spaced; steps divide their
 distance.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import Calibration, default
+from lumped.dynamics.implicit.sensitivities import SensitiveEsdirk, Sided, require_followed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.runs.observer import LatticeObserver
@@ -38,23 +41,56 @@ def simulate(
     integrator: str = INTEGRATOR,
     every: float | None = None,
     weights: Weights = "tributary",
+    sensitivities: Sequence[str] = (),
     **options: Any,
 ) -> History:
-    """Motion of the scene's sheet over `duration` [s].
+    """Return the motion of a scene's sheet from rest.
 
-    integrator: a name of `INTEGRATORS`, or "auto": the quickest at its error that this run can have
-    (`lumped.dynamics.integrators`). step [s]: never exceeded; without it the explicit ones take 0.9 of their
-    limit, `generalised-alpha` and `esdirk` adapt to their error, `midpoint` takes 1/200 of the lowest period.
-    every [s]: distance of samples, 1/100 of the lowest period unless given; no step is longer, and what a
-    load's history does within a step may go unseen, but for `esdirk`, whose adaptive steps may be longer and
-    end where a history bends. options: the integrator's own (`radius`, `error`), and `store`, `frames` and
-    `progress` (`sheetbench.runs.record`).
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        Scene, the name of one in the catalogue, or the path of its file.
+    calibration : Calibration, optional
+        Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
+    duration : float, default 1
+        Length of the motion [s].
+    step : float, optional
+        Largest step [s]; by default 0.9 of the limit of explicit integrators and 1/200 of the lowest period
+        for "midpoint"; "generalised-alpha" and "esdirk" adapt to their error.
+    integrator : str, default "auto"
+        Name of `INTEGRATORS`, or "auto", the fastest at equal error that the scene permits.
+    every : float, optional
+        Distance of samples [s]; by default 1/100 of the lowest period. No step is longer, except adaptive
+        steps of "esdirk", which end at the kinks of histories; other integrators may step over kinks.
+    weights : {"tributary", "full"}, default "tributary"
+        Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
+    sensitivities : sequence of str, optional
+        At most 20 parameters, of "esdirk" alone (`lumped.dynamics.implicit.sensitivities`):
+        `extra["sensitivities"]` has by parameter and probe the derivatives of the samples, (k, 3).
+    **options
+        Options of the integrator (`radius`, `error`), and `store`, `frames` and `progress` of
+        `sheetbench.runs.record`.
 
-    Raises NoEquilibrium where the shape to start from is no stable equilibrium, BadInput for an unknown
-    integrator, a step above the limit of an explicit one, more than ten
-    million default steps of it; for a folder that cannot be written to, that another process writes to, that
-    holds another run, or whose files are damaged.
+    Returns
+    -------
+    History
+        Times (k,) [s], displacements of the probes [m], reactions [N], energies [J] and status.
 
+    Raises
+    ------
+    NoEquilibrium
+        If the motion starts from an equilibrium and there is no stable one.
+    BadInput
+        If the integrator is unknown, its step exceeds the limit of stability, the default takes more than ten
+        million steps, or the folder `store` cannot be written to, is in use, holds another run or damaged
+        files.
+
+    Notes
+    -----
+    The equations of motion are in `lumped.dynamics.system`, each integrator's source in its module.
+
+    Examples
+    --------
     >>> import lumped
     >>> from sheetbench.scenes import load
     >>> scene = load("two-edges-settling")
@@ -67,11 +103,12 @@ def simulate(
     require_integrator(integrator)
     for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")
-    began = now()
+    start_time = now()
     scene = scene_of(scene)
     calibration = calibration or default(scene)
     system, start = in_motion(scene, calibration, weights)
     integrator, why = resolve_integrator(integrator, system, options)
+    require_followed(sensitivities, integrator, keeping)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
     settings = calibration.settings | {"layer_distance": calibration.layer_distance} | options
@@ -85,8 +122,11 @@ def simulate(
         "weights": weights,
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
-    kind = INTEGRATORS[integrator]
-    extra: dict[str, Any] = {"fixed": step is not None} if kind.adaptive else {}
+    kind: Any = INTEGRATORS[integrator]
+    sides = [Sided(scene, calibration, weights, name) for name in sensitivities]
+    if sides:
+        kind = partial(SensitiveEsdirk, sides)
+    extra: dict[str, Any] = {"fixed": step is not None} if INTEGRATORS[integrator].adaptive else {}
     recipe = Recipe(
         scene=scene,
         label=f"lumped {calibration.title}",
@@ -94,20 +134,26 @@ def simulate(
         settings=settings,
         key=key,
         schedule=schedule,
-        method=kind(system, length, **options, **extra),
+        method=(method := kind(system, length, **options, **extra)),
         observer=LatticeObserver(system, drawn),
         start=lambda: Advance(start, 0.0, 0.0),
         rows=len(drawn),
     )
-    history = record(recipe, keeping, began)
+    history = record(recipe, keeping, start_time)
     history.settings.update({"largest_step": limit.step} if limit is not None else {})
     history.settings.update({"integrator_reason": why} if why else {})
-    whole = history.extra["frames"]
+    if sides:
+        probes, count = MidSurface(system.assembly.lattice, scene.probe_points()), len(history.time)
+        rates = np.concatenate([block for _, block in method.found], axis=1)[:, :count]
+        at = [np.array([probes.of(u) for u in by]).swapaxes(0, 1) for by in rates]
+        by_probe = (dict(zip(scene.probes, values, strict=True)) for values in at)
+        history.extra["sensitivities"] = dict(zip(sensitivities, by_probe, strict=True))
+    frames = history.extra["frames"]
     history.extra.update(
         {
-            "frames": whole[:, :masses],
+            "frames": frames[:, :masses],
             "axes": {
-                edge: (rest, whole[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
+                edge: (rest, frames[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
             },
             "sample": lambda u, plan: MidSurface(system.assembly.lattice, plan).of(u),
             "mesh": field_mesh(system.problem.assembly, start.u, np.zeros_like(start.u)),

@@ -1,10 +1,10 @@
-"""Linear buckling: the load factors at which a structure's straight state stops being stable.
+"""Linear buckling: the load factors at which a structure's straight state becomes unstable.
 
-The loads in full stress the structure by σ, as small displacements have it. With K(±σ) the tangents of the
-undisplaced structure so stressed, K₀ its own and K₁ = ½ (K(σ) − K(−σ)), (K₀ + λ K₁) φ = 0 is the generalised
-eigenproblem −K₁ φ = (1/λ) K₀ φ (e.g. Bathe, Finite Element Procedures, 6.8). What the structure moves before
-it buckles is left out, as in the closed forms: a change of the tangent at the displaced structure times λ
-would hold the stretch that a rotation has to first order (a strip on edge buckled at half its load).
+The full loads cause the stress σ of linear theory. The tangents of the undisplaced structure with stresses ±σ
+are K(±σ), without stress K₀. The loads change the tangent by K₁ = ½ (K(σ) − K(−σ)), and (K₀ + λ K₁) φ = 0 is
+the generalised eigenproblem −K₁ φ = (1/λ) K₀ φ (e.g. Bathe, Finite Element Procedures, 6.8). Displacements
+before buckling are ignored, as in the closed forms: a tangent of the displaced structure, linear in λ, would
+contain the spurious stretch of a rotation to first order (a strip on edge buckled at half its load).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from sheetbench.numerics.direct import SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 
 BENDS = 1e-6  # displacement across the sheet over the largest, beyond which it does not stay flat
-STIFFENS = 1e-12  # 1/λ below which rounding alone softens the structure
+STIFFENS = 1e-12  # 1/λ below which a softening is rounding
 
 
 def buckling_modes(
@@ -30,12 +30,11 @@ def buckling_modes(
     count: int,
     still_within: float = 0.0,
 ) -> tuple[np.ndarray, list[State]]:
-    """Return the lowest positive load factors (count,), rising, and the states that are their shapes, of any
-    scale. surface: displacement of points of the mid-surface (n, 3) [m] at a state; still_within: what it
-    moves at least where it moves at all [m].
+    """Return the lowest positive load factors (count,), rising, and their shapes as states of any scale.
 
-    Raises BadInput where the loads bend the sheet at once or do not soften it, and for a count that there is
-    not.
+    surface: displacement of points of the mid-surface (n, 3) [m] at a state. still_within: displacement [m]
+    below which the sheet does not move. Raises BadInput if the loads bend the sheet at once or do not soften
+    it, and if there are fewer modes than `count`.
     """
     rest, sides = structure.rest(), []
     still = structure.forces(rest, 0.0)

@@ -1,9 +1,8 @@
-"""Newton's method with extrapolated stresses at one load, and the linear step that leads to it.
+"""Newton's method with extrapolated stresses at one load, and the linear step before it.
 
-The corrections are those of Magisano, Leonetti & Garcea (2017), as `trace` says. Close to the end those with
-the factors at hand serve as long as each leaves a tenth of the residual or less.
-Three watchdogs end them: a number that is not finite, a step that leaves the structure far behind, and
-corrections that do not shrink.
+Corrections follow Magisano, Leonetti & Garcea (2017), see `trace`. Close to the end they are computed with
+old factors, as long as each leaves a tenth of the residual or less. The iteration ends without an equilibrium
+at a number that is not finite, after a far too long step, and if corrections do not shrink.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ from sheetbench.numerics.continuation.path import LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Correction, Forces, State
 from sheetbench.numerics.direct import SOLVED, Factor, SingularMatrixError
 
-VANISHING = 1e-13  # work of a step, relative to the load step's first: beyond it only rounding is left
-STALE = 0.1  # of a residual: factors whose correction leaves more are too old
+VANISHING = 1e-13  # work of a step, relative to the load step's first: a smaller one is rounding
+STALE = 0.1  # of a residual: factors are too old if their correction leaves more
 
 
 @dataclass(frozen=True)
 class Start(Generic[State]):
-    """What Newton's method starts from: a state, the load factor it is for, and length and work of the step
-    that has led to it; factor: of the tangent where a linear step from a path's last equilibrium began."""
+    """Start of Newton's method: a state, its load factor, and length and work of the step before it. factor:
+    of the tangent at the start of the linear step from a path's last equilibrium."""
 
     state: State
     target: float
@@ -35,19 +34,18 @@ class Start(Generic[State]):
     factor: Factor | None = None
 
 
-Place = tuple[State, Forces, float]  # state, forces and load factor where a step begins
+Place = tuple[State, Forces, float]  # state, forces and load factor at the start of a step
 
 
-def _reused(path: Path[State, Forces], at: Place[State, Forces], factor: Factor) -> Correction | None:
-    """Return the correction of factors at hand; None where the right-hand side needs the tangent."""
+def _reuse(path: Path[State, Forces], at: Place[State, Forces], factor: Factor) -> Correction | None:
+    """Return the correction with old factors, None if the right-hand side depends on the tangent."""
     rows = path.structure.rows(*at)
     return None if rows is None else path.structure.solved(*at, factor, rows)
 
 
 def predicted(path: Path[State, Forces], target: float, reach: float, factor: Factor | None) -> Start[State]:
-    """Return where the first linear step from a path's last equilibrium towards a load leads, no longer than
-    `reach`. factor: of the tangent there, where it is at hand; it serves where that does not depend on the
-    load. Raises LoadStepFailed."""
+    """Return the end of the first linear step from a path's last equilibrium towards a load. The step is no
+    longer than `reach`. factor: of the tangent at its start, if available. Raises LoadStepFailed."""
     first = _linear_step(path, target, factor)
     if reach < first.length < np.inf:
         target = path.load_factor + (target - path.load_factor) * reach / first.length
@@ -61,27 +59,29 @@ def _linear_step(path: Path[State, Forces], target: float, factor: Factor | None
     structure = path.structure
     at = path.state, structure.forces(path.state, target), target
     try:
-        found = None
+        correction = None
         if factor is not None:
-            found = _reused(path, at, factor)
+            correction = _reuse(path, at, factor)
         elif not structure.prestrained:
-            found = structure.correct(*at, path.count)
-        if found is None:
+            correction = structure.correct(*at, path.count)
+        if correction is None:
             matrix, rows = structure.linearised(*at)
-            if structure.prestrained:  # the tangent would be of stresses at the target, nothing moved yet
+            if structure.prestrained:  # else stresses of the target without its displacement
                 matrix = path.tangent(path.state, path.load_factor)
             if factor is None or not structure.symmetric:
                 factor = path.factored(matrix)
-            found = structure.solved(*at, factor, rows)
+            correction = structure.solved(*at, factor, rows)
     except SingularMatrixError as error:
         raise LoadStepFailed(Status.SINGULAR, str(error), path.limits.first_reach) from None
-    length, work = structure.length(path.state, found.state), abs(float(found.step @ found.rows))
-    return Start(found.state, target, length, work, found.factor)
+    length = structure.length(path.state, correction.state)
+    work = abs(float(correction.step @ correction.rows))
+    return Start(correction.state, target, length, work, correction.factor)
 
 
 def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -> tuple[State, Factor | None]:
-    """Return the equilibrium at the load factor of a start, and the factors of its tangent where next to
-    nothing has changed since they were made. close: a residual that is good enough. Raises LoadStepFailed."""
+    """Return the equilibrium at the load factor of a start, and the factors of its tangent or None. Factors
+    are returned if they are of a nearly unchanged tangent. close: a residual small enough. Raises
+    LoadStepFailed."""
     run, structure, limits = _Newton(path, first), path.structure, path.limits
     try:
         for _ in range(limits.corrections):
@@ -108,52 +108,55 @@ def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -
 
 
 class _Newton(Generic[State, Forces]):
-    """A state on its way to equilibrium: lengths and works of its steps, the imbalance before the last one,
-    the factors at hand, the way since they were made, the error of their stresses, and whether the last step
-    was with those of an earlier one."""
+    """A state on its way to equilibrium, with the lengths and works of its steps. before: imbalance before
+    the last step. factor: the last factors. moved: distance since they were made. blurred: error of their
+    stresses. again: whether the last step reused factors."""
 
     def __init__(self, path: Path[State, Forces], first: Start[State]):
         self.path, self.structure, self.target = path, path.structure, first.target
         self.state, self.works, self.lengths = first.state, [first.work], [first.length]
         self.factor = first.factor if path.structure.linear else None
-        self.before, self.moved, self.blurred, self.again = np.inf, 0.0, 0.0, False
+        self.last_imbalance, self.reused_last = np.inf, False
+        self.distance = self.stress_error = 0.0
 
     def alike(self) -> Factor | None:
-        """Return the factors at hand if they are of the tangent here or nearly so."""
-        unchanged = self.structure.linear or max(self.moved, self.blurred) <= self.path.alike
+        """Return the last factors if the tangent has not changed noticeably since."""
+        unchanged = self.structure.linear or max(self.distance, self.stress_error) <= self.path.alike
         return self.factor if unchanged else None
 
     def at_rest(self, imbalance: float, relative: float) -> bool:
-        """Return whether the residual is in tolerance or all rounding, and all is where it is prescribed."""
+        """Return whether the residual is in tolerance or rounding, and prescribed displacements are met."""
         limits, last = self.path.limits, self.lengths[-1]
-        rounded = self.works[-1] <= VANISHING * self.works[0] and imbalance > 0.5 * self.before
+        rounded = self.works[-1] <= VANISHING * self.works[0] and imbalance > 0.5 * self.last_imbalance
         settled = relative <= limits.tolerance or rounded
         if not settled and (relative <= limits.refine_below or last <= limits.idle):
             settled = imbalance <= self.structure.imbalance_floor(self.state)
         return settled and self.structure.gap(self.state, self.target) <= limits.tolerance
 
     def stalls(self) -> bool:
-        """Return whether the steps do not shrink."""
+        """Return whether the steps have stopped shrinking."""
         lengths, back, share = self.lengths, self.path.limits.back, self.path.limits.shrinking
         return len(lengths) > back and lengths[-1] >= max(lengths[-1 - back], share * lengths[-2])
 
     def correct(self, forces: Forces, imbalance: float, relative: float) -> None:
-        """Take a step: with the factors at hand, by one compiled call, or with the assembled tangent."""
+        """Take a step: with the last factors, by one compiled call, or with the assembled tangent."""
         at, last = (self.state, forces, self.target), self.lengths[-1]
         refined = relative <= self.path.limits.refine_below
-        stale = self.again and imbalance > STALE * self.before
+        stale = self.reused_last and imbalance > STALE * self.last_imbalance
         near = self.alike() if refined and not stale else None
-        again = None if near is None else _reused(self.path, at, near)
-        found = again or self.structure.correct(*at, self.path.count) or self._assembled(at, not refined)
-        if found.factor is not self.factor:
-            self.moved, self.blurred = 0.0, last**2
-        self.lengths.append(self.structure.length(self.state, found.state))
-        self.works.append(abs(float(found.step @ found.rows)))
-        self.moved += self.lengths[-1]
-        self.state, self.factor, self.before, self.again = found.state, found.factor, imbalance, bool(again)
+        reused = None if near is None else _reuse(self.path, at, near)
+        step = reused or self.structure.correct(*at, self.path.count)
+        step = step or self._correct_assembled(at, not refined)
+        if step.factor is not self.factor:
+            self.distance, self.stress_error = 0.0, last**2
+        self.lengths.append(self.structure.length(self.state, step.state))
+        self.works.append(abs(float(step.step @ step.rows)))
+        self.distance += self.lengths[-1]
+        self.state, self.factor = step.state, step.factor
+        self.last_imbalance, self.reused_last = imbalance, bool(reused)
 
-    def _assembled(self, at: Place[State, Forces], iterates: bool) -> Correction:
-        """Return the correction of the tangent, by iterations with the factors at hand or by its own."""
+    def _correct_assembled(self, at: Place[State, Forces], iterates: bool) -> Correction:
+        """Return the correction of the tangent, by iterations with the last factors or by new ones."""
         matrix, rows = self.structure.linearised(*at)
         if iterates and (near := self.factor) is not None:
             iterated = self.path.solver.iterated

@@ -1,4 +1,4 @@
-"""Where the tracing of an equilibrium stands, and what ends it."""
+"""State of the tracing of an equilibrium path, and reasons for its end."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ class Fault(NamedTuple):
 
 @dataclass
 class Path(Generic[State, Forces]):
-    """Where the tracing of a structure stands: the last equilibrium, its load factor, and what it took.
+    """State of the tracing of a structure's path: the last equilibrium, its load factor, and the cost so far.
 
-    inspect: shown the path at every equilibrium on the way; a fault, if it finds one, ends it there. settle:
-    the stable state of a structure under conservative loads that a path leads to at a load factor beyond a
-    limit point, for the path to go on from; it raises LoadStepFailed where it finds none. limit: of
-    factorisations, for now; alike: change of the strain that leaves the tangent what it is; snaps: load
-    factors that it snapped at; fault: what has ended it early; notes: its warnings; progress: called at every
-    iteration; factor: of the equilibrium's tangent, where it is at hand.
+    inspect: called with the path at every equilibrium; a fault that it returns ends the path. settle: returns
+    the stable state, under conservative loads, at a load factor beyond a limit point, from which the path
+    continues; raises LoadStepFailed if there is none. limit: present limit of factorisations. alike: change
+    of strain below which the tangent counts as unchanged. snaps: load factors of snaps. fault: the reason of
+    an early end. notes: warnings. progress: called at every iteration. factor: of the equilibrium's tangent,
+    if available.
     """
 
     structure: Structure[State, Forces]
@@ -54,14 +54,14 @@ class Path(Generic[State, Forces]):
         self.limit = self.limits.factorisations
 
     def begin(self, limits: Limits | None = None) -> None:
-        """Go back to rest, with as many factorisations as at first."""
+        """Return to rest, with the full number of factorisations."""
         self.rest()
         self.limits = limits or self.limits
         self.limit = self.factorisations + self.limits.factorisations
         self.forget()
 
     def rest(self) -> None:
-        """Go back to rest."""
+        """Return to the state at rest."""
         self.put(self.structure.rest(), 0.0)
 
     def put(self, state: State, load_factor: float, factor: Factor | None = None) -> None:
@@ -74,7 +74,7 @@ class Path(Generic[State, Forces]):
         self.notes.clear()
 
     def factored(self, matrix: Matrix) -> Factor:
-        """The factors of a matrix, counted. Raises SingularMatrixError."""
+        """Return the factors of a matrix and count them. Raises SingularMatrixError."""
         self.count()
         return self.solver.factor(matrix, self.count)
 
@@ -83,23 +83,23 @@ class Path(Generic[State, Forces]):
         self.factorisations += 1
 
     def tangent(self, state: State, load_factor: float) -> Matrix:
-        """The true tangent at a state: with its own stresses, none extrapolated."""
+        """Return the true tangent at a state: with its own stresses, none extrapolated."""
         forces = self.structure.forces(state, load_factor)
         return self.structure.linearised(state, forces, load_factor, mixed=False)[0]
 
     def note(self, load_factor: float, residual: float, step: float) -> None:
-        """Keep an iteration and tell whoever watches."""
+        """Record an iteration and report it to `progress`."""
         self.history.append(Iteration(load_factor, residual, step))
         if self.progress is not None:
             self.progress(self.history[-1])
 
 
-Inspect = Callable[[Path[State, Forces]], Fault | None]  # shown a path at an equilibrium, what ends it there
+Inspect = Callable[[Path[State, Forces]], Fault | None]  # a reason to end a path at its last equilibrium
 Settle = Callable[[Path[State, Forces], float], State]  # a stable state beyond a limit point
 
 
 class LoadStepFailed(ArithmeticError):
-    """A load step found no equilibrium. status: how it ended; length: of its first linear step."""
+    """A load step without an equilibrium. status: of its end; length: of its first linear step."""
 
     def __init__(self, status: Status, reason: str, length: float):
         super().__init__(reason)

@@ -1,18 +1,18 @@
-"""Relaxation of a structure: the stable equilibrium to which it creeps from where a load path ends.
+"""Relaxation of a structure: the stable equilibrium to which it creeps from the end of a load path.
 
-Beyond a limit point the nearest equilibrium is far away. A sheet of Kelvin–Voigt material without inertia, of
-stresses D (e + τ ė), creeps there: under dead loads, λ held, its potential Π = ½ ∫ e·D e − λ f·u falls at the
-rate ∫ τ ė·D ė. A backward Euler step of length τ/σ from strains e_n is an equilibrium of the sheet with
+Beyond a limit point the nearest equilibrium is far away. A sheet of Kelvin–Voigt material without inertia,
+with stresses D (e + τ ė), creeps there: under dead loads, λ held, its potential Π = ½ ∫ e·D e − λ f·u falls
+at the rate ∫ τ ė·D ė. A backward Euler step of length τ/σ from strains e_n is an equilibrium with stresses
 
     s = (1 + σ) D e − σ D e_n,      a minimum of Π + ½ σ ∫ (e − e_n)·D (e − e_n),
 
-found by the same mixed Newton iterations as others (see `trace`), so that a large rotation costs no
-more here than there. Drag and stiffness being of one kind, long waves and short ones creep alike, and rigid
-motions freely. σ grows until the tangent where the step begins is positive definite, and when the step does
-not converge or Π would rise; after easy steps it shrinks, until Newton's method takes over, to the tolerance
-of every load step. So no step raises Π, to rounding. The inertia of the tangent judges the end; a saddle is
-left along its direction of most negative curvature. Directors are unit vectors to the same tolerance
-throughout. Rods creep with the sheet. Kelley & Keyes (1998) on pseudo-transient continuation; Ascher, Huang &
+computed by the mixed Newton iterations of load steps (see `trace`), so that a large rotation costs no more.
+Since drag is proportional to stiffness, long and short waves creep equally fast, and rigid motions freely. σ
+grows until the tangent at the step's start is positive definite, and when the step does not converge or Π
+would rise; after easy steps it shrinks, until Newton's method takes over, to the tolerance of every load
+step. So no step raises Π, to rounding. The inertia of the tangent decides on the end; a saddle is left along
+its direction of most negative curvature. Directors are unit vectors to the load steps' tolerance throughout.
+Rods creep with the sheet. Sources: Kelley & Keyes (1998) on pseudo-transient continuation; Ascher, Huang &
 van den Doel (2007) on gradient flow with large steps.
 """
 
@@ -31,27 +31,27 @@ from sheetbench.numerics.direct import Factor, SingularMatrixError
 
 FACTORISATIONS = 400  # of one relaxation; a shell folds over a ball in 320 to 370
 CORRECTIONS = 8  # of one step
-STEP_TOLERANCE = 0.1  # residual of a step, relative to the one it begins with, that is small enough
-ENOUGH = 1e-6  # the same, relative to the forces that balance
-SHRINKING = 0.7  # corrections that shrink by less, after the second, are given up
+STEP_TOLERANCE = 0.1  # residual at the end of a step, relative to the residual at its start
+ENOUGH = 1e-6  # or relative to the forces in balance
+SHRINKING = 0.7  # a step fails if corrections after the second shrink by less
 LONGEST = 1.0  # correction, in sizes of the sheet
-LESS_DRAG_UP_TO = 4  # a step that took no more factorisations is followed by one of less drag
-FASTER, CAREFUL = 4.0, 1.5  # by which drag falls; within CAUTION steps of a failure
+LESS_DRAG_UP_TO = 4  # factorisations of a step after which drag falls
+FASTER, CAREFUL = 4.0, 1.5  # factors by which drag falls: usually, and within CAUTION steps of a failure
 CAUTION = 3
 FIRST_DRAG = 1.0  # σ
 STIFFEST = 1e9  # σ beyond which nothing moves
-NEARLY = 1e-5  # residual, relative to the forces that balance, below which Newton's method takes over
-FURTHER = 0.1  # by which the residual must fall where it has failed
-ROUNDING = 1e-12  # of the energies that balance
-PUSH, SMALLEST_PUSH = 1e-2, 1e-6  # sizes of the sheet that a saddle is left by
-# with 12 the mode of a held, heated plate still had more of what is stiff than of what buckles
+NEARLY = 1e-5  # residual, relative to the forces in balance, below which Newton's method takes over
+FURTHER = 0.1  # factor by which the residual must fall after a failure of Newton's method
+ROUNDING = 1e-12  # of the energies in balance
+PUSH, SMALLEST_PUSH = 1e-2, 1e-6  # displacements from a saddle, in sizes of the sheet
+# after 12 steps the mode of a held, heated plate still had larger stiff parts than buckling ones
 INVERSE_STEPS = 40
 
 
 def relax(path: Path[State, Forces], load_factor: float) -> State:
-    """The stable equilibrium at a load factor > 0 to which the sheet creeps from a path's last one.
+    """Return the stable equilibrium at a load factor > 0 to which the sheet creeps from a path's last one.
 
-    The path's state stays; its factorisations and history grow. Raises StepFailed where there is none.
+    The path's state does not change; its factorisations and history grow. Raises LoadStepFailed without one.
     """
     limit = path.limit
     path.limit = min(limit, path.factorisations + FACTORISATIONS)
@@ -64,7 +64,7 @@ def relax(path: Path[State, Forces], load_factor: float) -> State:
 
 
 class _Creep(Generic[State, Forces]):
-    """Where the creep stands: state, potential, drag σ and the length of the last step."""
+    """The creep's present state, potential, drag σ and length of the last step."""
 
     def __init__(self, path: Path[State, Forces], load_factor: float):
         self.structure = structure = cast(Creeping[State, Forces], path.structure)
@@ -78,7 +78,7 @@ class _Creep(Generic[State, Forces]):
         self.nearly = NEARLY
 
     def end(self) -> State:
-        """The stable equilibrium. Raises StepFailed, SingularMatrixError."""
+        """Return the stable equilibrium. Raises LoadStepFailed, SingularMatrixError."""
         while True:
             self._step()
             forces = self.structure.forces(self.state, self.load_factor)
@@ -92,13 +92,13 @@ class _Creep(Generic[State, Forces]):
                 factor = self._factor(self.structure, state)
                 if factor.negative == factor.zero == 0:
                     return state
-                self._leave(state)
+                self._leave_saddle(state)
 
     def _step(self) -> None:
-        """One accepted step, with as much drag as it needs. Raises StepFailed."""
+        """Take an accepted step, with as much drag as it needs. Raises LoadStepFailed."""
         while True:
             before = self.path.factorisations
-            state = self._crept()
+            state = self._creep_step()
             if state is not None and self._accepts(state):
                 break
             self.drag, self.careful = FASTER * self.drag, CAUTION
@@ -111,15 +111,15 @@ class _Creep(Generic[State, Forces]):
             self.drag /= CAREFUL if self.careful > 0 else FASTER
 
     def _accepts(self, state: State) -> bool:
-        """Whether the potential has not risen; if so, it is the one to compare with from now on."""
+        """Return whether the potential has not risen; if so, compare with it from now on."""
         energy, balanced = self.structure.potential(state, self.load_factor)
         if not energy <= self.energy + ROUNDING * balanced:  # also catches nan
             return False
         self.energy = min(self.energy, energy)
         return True
 
-    def _crept(self) -> State | None:
-        """The end of a step of creep, or None where it does not come to rest."""
+    def _creep_step(self) -> State | None:
+        """Return the end of a step of creep, None if its iterations fail."""
         structure = self.structure.dragged(self.state, self.load_factor, self.drag)
         state, lengths, first = self.state, list[float](), np.inf
         for k in range(CORRECTIONS + 1):
@@ -135,7 +135,7 @@ class _Creep(Generic[State, Forces]):
             if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > SHRINKING * lengths[-2]):
                 return None
             matrix, rows = structure.linearised(state, forces, self.load_factor)
-            factor = self._counted(matrix)
+            factor = self._factor_matrix(matrix)
             if k == 0 and factor.negative:
                 return None
             following = structure.advance(state, forces, self.load_factor, factor.solve(rows))
@@ -146,7 +146,8 @@ class _Creep(Generic[State, Forces]):
         return None
 
     def _equilibrium(self) -> State | None:
-        """Newton's method from the last step, its work measured against what the creep has released."""
+        """Return the equilibrium by Newton's method from the last step, None if it fails. Its work is
+        compared with the energy that the creep has released."""
         released = abs(self.first - self.energy)
         start = Start(self.state, self.load_factor, self.length, released)
         try:
@@ -155,9 +156,9 @@ class _Creep(Generic[State, Forces]):
             return None
         return self.structure.unextrapolated(state) if self._accepts(state) else None
 
-    def _leave(self, saddle: State) -> None:
-        """Go on beside a saddle, where the potential is lower, in the lowest mode of K v = μ K_m v, K_m the
-        tangent of the material alone. Raises StepFailed."""
+    def _leave_saddle(self, saddle: State) -> None:
+        """Leave a saddle towards lower potential along the lowest mode of K v = μ K_m v. K_m is the tangent
+        of the material alone. Raises LoadStepFailed."""
         structure, drag = self.structure, FIRST_DRAG
         forces = structure.forces(saddle, self.load_factor)
         tangent, _ = structure.linearised(saddle, forces, self.load_factor, mixed=False)
@@ -172,18 +173,18 @@ class _Creep(Generic[State, Forces]):
         mode /= structure.length(saddle, structure.advance(saddle, forces, self.load_factor, mode))
         push = PUSH
         while push > SMALLEST_PUSH:
-            beside = [self._pushed(saddle, sign * push * mode) for sign in (1.0, -1.0)]
-            energies = [structure.potential(state, self.load_factor)[0] for state in beside]
+            states = [self._push(saddle, sign * push * mode) for sign in (1.0, -1.0)]
+            energies = [structure.potential(state, self.load_factor)[0] for state in states]
             lower = int(np.argmin(energies))
             if energies[lower] < self.energy:
-                self.state, self.energy = beside[lower], energies[lower]
+                self.state, self.energy = states[lower], energies[lower]
                 self.drag, self.careful = drag, CAUTION
                 return
             push /= FASTER
         raise LoadStepFailed(Status.UNSTABLE, "it creeps to a saddle and does not leave it", 0.0)
 
-    def _pushed(self, state: State, step: np.ndarray) -> State:
-        """A state moved by a step (unknowns,), its directors brought back to unit length."""
+    def _push(self, state: State, step: np.ndarray) -> State:
+        """Return a state moved by a step (unknowns,), with directors of unit length."""
         while True:
             forces = self.structure.forces(state, self.load_factor)
             moved = self.structure.advance(state, forces, self.load_factor, step)
@@ -193,12 +194,12 @@ class _Creep(Generic[State, Forces]):
             step = np.zeros_like(step)
 
     def _factor(self, structure: Creeping[State, Forces], state: State) -> Factor:
-        """Of the true tangent."""
+        """Return the factors of the true tangent."""
         forces = structure.forces(state, self.load_factor)
-        return self._counted(structure.linearised(state, forces, self.load_factor, mixed=False)[0])
+        return self._factor_matrix(structure.linearised(state, forces, self.load_factor, mixed=False)[0])
 
-    def _counted(self, matrix: csr_matrix) -> Factor:
-        """The factors of a matrix. Raises StepFailed where they are too many."""
+    def _factor_matrix(self, matrix: csr_matrix) -> Factor:
+        """Return the factors of a matrix. Raises LoadStepFailed after too many factorisations."""
         if self.path.factorisations >= self.path.limit:
             raise LoadStepFailed(Status.STEP_LIMIT, f"not at rest after {FACTORISATIONS} factorisations", 0.0)
         return self.path.factored(matrix)

@@ -1,5 +1,7 @@
-"""Whether an equilibrium is stable: by its tangent's inertia or, under follower loads, whose tangent is not
-symmetric, by its real eigenvalues (see `sheetbench.numerics.stability`)."""
+"""Stability of an equilibrium: by the inertia of its tangent or, under follower loads, by real eigenvalues.
+
+The tangent under follower loads is not symmetric (see `sheetbench.numerics.stability`).
+"""
 
 from __future__ import annotations
 
@@ -13,8 +15,9 @@ from sheetbench.numerics.direct import SingularMatrixError
 
 
 def stability(path: Path[State, Forces]) -> tuple[Status, str]:
-    """Whether the tangent at the path's last equilibrium is positive definite or, under follower loads, has
-    no real eigenvalue below 0; a sentence where it is not, or where that is not known."""
+    """Return the status of a path's last equilibrium, and a sentence unless it is stable. It is stable if its
+    tangent is positive definite or, under follower loads, has no real eigenvalue below 0. The sentence also
+    reports that stability is not known."""
     structure = path.structure
     try:
         if structure.symmetric:
@@ -22,14 +25,14 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
             negative, zero = path.factor.negative - structure.multipliers, path.factor.zero
         else:
             path.factor = path.factored(path.tangent(path.state, path.load_factor))
-            found = None if structure.multipliers else path.factor.negative_real()
-            if found is None:
+            count = None if structure.multipliers else path.factor.negative_real()
+            if count is None:
                 return (
                     Status.CONVERGED,
                     "stability not known: the tangent's eigenvalues nearest to zero were not found, or its "
                     "determinant has the sign of further negative ones",
                 )
-            negative, zero = found, 0
+            negative, zero = count, 0
     except SingularMatrixError as error:
         return Status.SINGULAR, str(error)
     if zero:
@@ -40,6 +43,6 @@ def stability(path: Path[State, Forces]) -> tuple[Status, str]:
 
 
 def require_stable(model: str, status: Status, notes: Sequence[str]) -> None:
-    """Raise NoEquilibrium unless a path ended in a stable equilibrium that the model knows."""
+    """Raise NoEquilibrium unless a path ended in a stable equilibrium within the model's limits."""
     if status is not Status.CONVERGED:
         raise NoEquilibrium(f"{model}: {status}: {'; '.join([*notes, status.advice])}")

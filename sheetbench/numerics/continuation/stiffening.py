@@ -1,22 +1,23 @@
 """An equilibrium with penalties of obstacles, soft first and then stiff.
 
-Along a load path of stiff penalties row after row of points comes to act, each a few corrections: Newton's
-method on a quadratic penalty is the primal–dual active-set method, whose set bending moves slowly. So soft
-ones are raised at the full load in stages of equal factors, each Newton's method from the last shape with the
-stresses that it extrapolated; all but the last end at a small residual, small enough for what rolls to have
-found its place while its patch is wide. One that fails takes the square root
-of its factor. Status and notes of the end are the last stage's. Where soft penalties lead nowhere or through
-an obstacle, `settle` begins again from rest with stiff ones, in so many load steps that no obstacle moves by
+Along a load path with stiff penalties one row of points after another comes into contact, at a few
+corrections each: Newton's method on a quadratic penalty is the primal–dual active-set method, and bending
+changes the active set slowly. So soft penalties are raised at the full load in stages of equal factors, each
+by Newton's method from the last shape with its extrapolated stresses. All stages but the last end at a
+residual small enough for a rolling contact to settle while its patch is wide. A failed stage is repeated
+with the square root of its factor. The status is the last stage's. If soft penalties fail or lead through an
+obstacle, `settle` starts again from rest with stiff ones, in load steps so short that no obstacle moves by
 more than a quarter of its radius in one.
 
-A penalty has the `obstacle`, the `share` of its stiffness that acts, and of its points the whole, `full` (…)
-[Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its points are `near` the obstacle as they are `placed`.
+A penalty has the `obstacle`, the acting `share` of its stiffness, and at its points the full stiffness `full`
+(…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method `near` takes the points as `placed`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -41,7 +42,7 @@ def soften(penalties: Sequence[Any], share: float) -> None:
 
 
 def require_way(path: Path[State, Forces], state: State, load_factor: float) -> None:
-    """Raise LoadStepFailed where the way from a path's last equilibrium leads through an obstacle."""
+    """Raise LoadStepFailed if the way from a path's last equilibrium leads through an obstacle."""
     structure = path.structure
     before, after = structure.placed(path.state, path.load_factor), structure.placed(state, load_factor)
     if any(one.near(after).share_of_way(one.near(before)) < 1.0 for one in structure.contacts):
@@ -49,8 +50,8 @@ def require_way(path: Path[State, Forces], state: State, load_factor: float) -> 
 
 
 def softest(structure: Structure[State, Forces]) -> float:
-    """Return the share of the stiffness to begin with, and give it: with it the load, or the pressure that
-    bends a plate of this size by the prescribed way (8 D per size⁴), leaves points DEPTH deep."""
+    """Set the penalties to 0 and return the first share of their stiffness: points are DEPTH deep with it
+    under the load, or a pressure that bends a plate of this size by the prescribed motion (8 D per size⁴)."""
     shares, size = [1.0], structure.size
     soften(structure.contacts, 0.0)
     force, gap = structure.loading(), size * structure.gap(structure.rest(), 1.0)
@@ -63,14 +64,21 @@ def softest(structure: Structure[State, Forces]) -> float:
 
 
 def stiffened(
-    path: Path[State, Forces], trace: Callable[[Path[State, Forces]], Fault | None]
+    path: Path[State, Forces],
+    trace: Callable[[Path[State, Forces]], Fault | None],
+    near: Start[State] | None = None,
 ) -> Fault | None:
-    """Lead a path from rest to the equilibrium at full load with stiff penalties: the fault that has ended it
-    before, if any. trace: the usual way there."""
+    """Lead a path from rest to the equilibrium at full load with stiff penalties; return the fault of an
+    earlier end, else None. trace: traces a path with given penalties; near: a start for a descent."""
     structure, limits, contacts = path.structure, path.limits, path.structure.contacts
     down = path.settle if structure.symmetric else None
+    if near is not None and down is not None:
+        path.put(near.state, 0.0)
+        with suppress(LoadStepFailed):
+            path.put(down(path, 1.0), 1.0)
+            return path.inspect(path)
     share = softest(structure)
-    while True:  # what leads nowhere is too soft, where nothing else is left
+    while True:  # without a `settle`, a share that fails is too soft
         soften(contacts, share)
         path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE))
         ended = trace(path)
@@ -101,7 +109,7 @@ def stiffened(
 
 
 def _raised(path: Path[State, Forces], share: float) -> Fault | None:
-    """Raise the penalties from a share to all of them: the fault that has ended it before, if any."""
+    """Raise the penalties from a share to their full stiffness; return the fault of an earlier end."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
     path.limits = replace(path.limits, corrections=PATIENT, back=PATIENT)

@@ -1,4 +1,4 @@
-"""What the path tracer asks of a structure, whose states, forces and matrices are its own."""
+"""Interface of the path tracer to a structure with its own states, forces and matrices."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import numpy as np
 from sheetbench.numerics.direct import SOLVED, Count, Factor
 
 State = TypeVar("State")
-Forces = TypeVar("Forces", bound=Any)  # `size`: of those that balance [N], by which residuals are measured
-Matrix = Any  # what `Solver.factor` takes
+Forces = TypeVar("Forces", bound=Any)  # with `size`, of the forces in balance [N], the scale of residuals
+Matrix = Any  # argument of `Solver.factor`
 
 
 class Correction(NamedTuple):
-    """A step (n,) with the factors and the right-hand side (n,) that it is of, and the state after it."""
+    """A step (n,), its factors and its right-hand side (n,), and the state after it."""
 
     factor: Factor
     step: np.ndarray
@@ -24,103 +24,102 @@ class Correction(NamedTuple):
 
 
 class Solver(Protocol):
-    """What gives factors of a structure's matrices."""
+    """Factorisation of a structure's matrices."""
 
     def factor(self, matrix: Matrix, more: Count = ...) -> Factor:
-        """Return the factors; more: called once a further factorisation that they take. Raises
-        SingularMatrixError."""
+        """Return the factors of a matrix. Raises SingularMatrixError. more: called for each further
+        factorisation."""
 
     def iterated(self, matrix: Matrix, near: Factor, rows: np.ndarray) -> np.ndarray | None:
-        """Return the solution by iterations with the factors of a matrix close by; None where factors of its
-        own cost less."""
+        """Return the solution by iterations with a nearby matrix's factors, None if new ones cost less."""
 
 
 class Structure(Protocol[State, Forces]):
-    """What `trace_path` needs. A structure that inherits this leaves out what has a default here."""
+    """Interface of `trace_path`. A structure that inherits it may omit members with a default."""
 
-    prestrained: bool = False  # whether a natural strain loads it, which may stress it where it does not move
-    linear: bool = False  # whether its tangent is the same everywhere, and so the first correction exact
-    contacts: Sequence[Any] = ()  # penalties (`stiffening`), with which the rest here is of interest
+    prestrained: bool = False  # whether a natural strain loads it, perhaps without displacement
+    linear: bool = False  # whether its tangent is constant, so that the first correction is exact
+    contacts: Sequence[Any] = ()  # penalties (`stiffening`)
     size: float = 1.0  # [m]
     symmetric: bool  # whether the tangent is
-    multipliers: int = 0  # constraints among the unknowns: negative eigenvalues of every tangent
+    multipliers: int = 0  # number of constraints: negative eigenvalues of every tangent
 
     def loading(self) -> float:
-        """Sum of the full loads on the structure at rest [N]."""
+        """Return the sum of the full loads on the structure at rest [N]."""
         return 0.0
 
     def placed(self, state: State, load_factor: float) -> Any:
-        """A state at a load factor as its contacts take it."""
+        """Return a state at a load factor in the form for contacts."""
 
     def restarted(self, state: State) -> tuple[State, float]:
-        """A state at full load without forces that are of other penalties, and the size of its energy [J]."""
+        """Return a state at full load without forces of former penalties, and the size of its energy [J]."""
         return state, 0.0
 
     def rest(self) -> State:
-        """The state that the path sets out from."""
+        """Return the state at the start of a path."""
 
     def forces(self, state: State, load_factor: float) -> Forces:
-        """Internal less external forces."""
+        """Return internal less external forces."""
 
     def imbalance(self, state: State, forces: Forces) -> float:
-        """Of the free unknowns [N]."""
+        """Return the imbalance of the free unknowns [N]."""
 
     def imbalance_floor(self, state: State) -> float:
-        """What rounding leaves of the imbalance at a state [N]."""
+        """Return the part of the imbalance at a state that is rounding [N]."""
         return 0.0
 
     def gap(self, state: State, load_factor: float) -> float:
-        """Distance from what is prescribed, relative to the structure's size."""
+        """Return the distance from prescribed displacements, relative to the structure's size."""
 
     def rows(self, state: State, forces: Forces, load_factor: float) -> np.ndarray | None:
-        """Right-hand side of a step to equilibrium, where it does not need the tangent."""
+        """Return the right-hand side of a step to equilibrium, None if it depends on the tangent."""
         return None
 
     def linearised(
         self, state: State, forces: Forces, load_factor: float, mixed: bool = True
     ) -> tuple[Matrix, np.ndarray]:
-        """Tangent and right-hand side of a step; mixed: with the stress that the last step extrapolated."""
+        """Return tangent and right-hand side of a step; mixed: with the last step's extrapolated stress."""
 
     def sparse(self, matrix: Matrix) -> Any:
         """Return a tangent as a SciPy matrix."""
         return matrix
 
     def advance(self, state: State, forces: Forces, load_factor: float, step: np.ndarray) -> State:
-        """The state after a step."""
+        """Return the state after a step."""
 
     def solved(
         self, state: State, forces: Forces, load_factor: float, factor: Factor, rows: np.ndarray
     ) -> Correction:
-        """The correction of factors and a right-hand side."""
+        """Return the correction with given factors and right-hand side."""
         step = factor.solve(rows, SOLVED)
         return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
 
     def correct(self, state: State, forces: Forces, load_factor: float, count: Count) -> Correction | None:
-        """Return the correction of the tangent's own factors (counted), with what the last step extrapolated,
-        made at once; None where it is not."""
+        """Return the correction with the factors of the tangent by one call, or None without this call. The
+        factorisation is counted. The tangent has the last step's extrapolated stress."""
         return None
 
     def with_stresses(self, state: State, of: State) -> State:
-        """A state with the stresses that a step to another has extrapolated."""
+        """Return a state with the stresses that a step to another state has extrapolated."""
 
     def length(self, start: State, end: State) -> float:
-        """Between two states, relative to the structure's size."""
+        """Return the distance of two states, relative to the structure's size."""
 
     def has_meaning(self, state: State) -> bool:
-        """Whether the model's law holds at its strains."""
+        """Return whether the model's law is valid at the strains of a state."""
         return True
 
 
 class Creeping(Structure[State, Forces], Protocol[State, Forces]):
-    """What `relax` needs beside: a structure that can creep under dead loads."""
+    """Interface of `relax`: a structure that can creep under dead loads."""
 
     def unextrapolated(self, state: State) -> State:
-        """The state with its own stresses."""
+        """Return a state with its own stresses."""
 
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
-        """Strain energy less the loads' work, and the sum of their magnitudes [J]."""
+        """Return the strain energy less the loads' work, and the sum of their magnitudes [J]."""
 
     def dragged(self, state: State, load_factor: float, drag: float) -> Creeping[State, Forces]:
-        """The structure whose equilibrium at this load factor is the end of a step of creep from a state."""
+        """Return the structure whose equilibrium at a load factor is the end of a creep step from a state."""
 
     unknowns: int

@@ -1,23 +1,22 @@
 """Equilibrium of a structure under a load that grows from 0 to 1: mixed Newton with adaptive steps.
 
-Strains are quadratic in the unknowns, so Newton's method on the displacements sees, after a large rotation,
-membrane stresses that are nothing but the error of its own linear step, and wanders. Magisano, Leonetti &
-Garcea (2017, "mixed integration point") take for the geometric stiffness the stress that the last
-linear step extrapolated, σ* = C (ε + B δu), and leave the residual alone: the answer is the
-same, the path from the flat sheet is a few iterations long. Supports move in the first linear step.
+Strains are quadratic in the unknowns: after a large rotation Newton's method on the displacements has
+membrane stresses that are only the error of its own linear step, and does not converge well. Magisano,
+Leonetti & Garcea (2017, "mixed integration point") use for the geometric stiffness the stress that the last
+linear step extrapolated, σ* = C (ε + B δu), and do not change the residual: the equilibrium is unchanged, and
+the path from the flat sheet takes a few iterations. Supports move in the first linear step.
 
-Load steps adapt. The first linear step towards a load may go no farther than a reach of a few sizes of the
-structure: a longer one is cut to it, load and all, with the factors at hand. A load step whose corrections
-stop shrinking (`newton`) is given up at once and halves the reach; an easy one raises it. `inspect` may end
-the whole path at an equilibrium that the structure itself does not vouch for. Where the path ends before the
-full load, the inertia of the last equilibrium's tangent says whether it has lost its uniqueness.
+Load steps adapt. The first linear step towards a load is no longer than a reach of a few sizes of the
+structure: a longer one is cut to the reach, with its load, without new factors. A load step whose corrections
+stop shrinking (`newton`) fails at once and halves the reach; an easy one raises it. `inspect` may end the
+path at an equilibrium beyond the structure's validity. If the path ends before the full load, the inertia of
+the last equilibrium's tangent shows whether it has lost its uniqueness.
 
-A path whose corrections stop shrinking however short the step has come to a limit point. Given a `settle`, it
-goes on from the stable equilibrium that this finds a little beyond (see `pseudo_transient`): the structure
-snaps.
+If corrections stop shrinking in the shortest steps, the path is at a limit point. A path with a `settle`
+continues from the stable equilibrium a little beyond (see `pseudo_transient`): the structure snaps.
 
-At the end the inertia of the true tangent says whether the equilibrium is stable; under follower loads, whose
-tangent is not symmetric, its real eigenvalues do (collapse; flutter is a matter of dynamics).
+The inertia of the true tangent decides at the end whether the equilibrium is stable; under follower loads,
+whose tangent is not symmetric, its real eigenvalues do (collapse; flutter belongs to dynamics).
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ from sheetbench.numerics.continuation.structure import Forces, Solver, State, St
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 
-SAME_TANGENT = 1e-2  # of (thickness/size)², strains that buckle a sheet: what changes by less has one tangent
+SAME_TANGENT = 1e-2  # of (thickness/size)², the strain that buckles a sheet: smaller changes are negligible
 
 
 def trace_path(
@@ -48,17 +47,17 @@ def trace_path(
     limits: Limits | None = None,
     buckled: bool = False,
 ) -> Path[State, Forces]:
-    """The equilibrium at load factor 1, or the last one on the way with the reason it is the last.
+    """Return the path to the equilibrium at load factor 1, or to the last one, with the reason of its end.
 
-    inspect, settle: as of `Path`; progress: called once an iteration. near: a state close to the equilibrium,
-    to begin at; where that leads to none that is stable, or with obstacles, the path begins at rest.
-    slenderness: thickness over size; where it is given, the factors of a last correction that is next to
-    nothing tell the stability. buckled: leave an unstable equilibrium for the stable one that `settle` finds.
+    inspect, settle: as in `Path`. progress: called at every iteration. near: a start close to the
+    equilibrium; if it leads to no stable one, the path begins at rest. slenderness: thickness over size; if
+    given, the factors before a negligible last correction are used for stability. buckled: leave an unstable
+    equilibrium for the stable one of `settle`.
     """
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        ended = stiffened(path, _traced) if structure.contacts else _traced(path, near)
+        ended = stiffened(path, _trace, near) if structure.contacts else _trace(path, near)
         path.fault = ended
         path.status, note = ended or stability(path)
         if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
@@ -74,36 +73,35 @@ def trace_path(
 
 
 class Ending(NamedTuple):
-    """How a run ended. reason: None at load factor 1; careful: factorisations allowed to small load steps, 0
-    after large ones."""
+    """End of a run. reason: why it ended before load factor 1, else None. careful: limit of factorisations of
+    small load steps, 0 after large ones alone."""
 
     reason: LoadStepFailed | Fault | None
     careful: int = 0
 
 
-def _traced(path: Path[State, Forces], near: Start[State] | None = None) -> Fault | None:
-    """Lead a path from rest, or from near the end, to load factor 1. Return what has ended it before."""
-    if near is not None and _near(path, near):
+def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault | None:
+    """Lead a path from rest, or from near the end, to load factor 1; return the fault of an earlier end."""
+    if near is not None and _trace_near(path, near):
         return None
-    plain = _follow(path)
+    plain = _take_load_steps(path)
     reached = path.state if plain is None else None
-    ended = _carefully(path, plain)
-    fault = _snapped(path, ended)
+    ended = _trace_carefully(path, plain)
+    fault = _trace_snaps(path, ended)
     if fault is None or reached is None:
         return fault
     if path.load_factor > 0.0:
-        left = f", after {ended.careful} factorisations" if path.factorisations >= path.limit else ""
+        limited = f", after {ended.careful} factorisations" if path.factorisations >= path.limit else ""
         path.notes.append(
-            f"small load steps end at load factor {path.load_factor:.4g}{left}: this equilibrium, which "
+            f"small load steps end at load factor {path.load_factor:.4g}{limited}: this equilibrium, which "
             "large ones led to, may be on another branch"
         )
     path.put(reached, 1.0)
     return None
 
 
-def _near(path: Path[State, Forces], near: Start[State]) -> bool:
-    """Lead a path to a stable equilibrium close to a start. Return whether there is one; if not, the path is
-    unchanged."""
+def _trace_near(path: Path[State, Forces], near: Start[State]) -> bool:
+    """Lead a path to a stable equilibrium close to a start; return False, the path unchanged, without one."""
     before = path.state, path.load_factor, path.factor
     try:
         state, factor = newton(path, near)
@@ -117,33 +115,33 @@ def _near(path: Path[State, Forces], near: Start[State]) -> bool:
     return False
 
 
-def _carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
-    """Lead a path from rest again, by small load steps, where large ones may have left its branch. plain: how
-    these ended, which stands where small ones do not get so far as to begin."""
+def _trace_carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
+    """Lead a path from rest again, by small load steps, if large ones may have left its branch. plain: end of
+    the large steps, which is returned if no small one succeeds."""
     budget = 0 if isinstance(plain, Fault) else _careful_budget(path)
     if not budget:
         return Ending(plain)
     stuck = path.state, path.load_factor
     path.rest()
     path.limit = path.factorisations + budget
-    ended = _follow(path, careful=True)
+    ended = _take_load_steps(path, careful=True)
     if plain is not None:
-        path.limit = max(path.limit, path.limits.factorisations)  # what is left of it serves for snaps
+        path.limit = max(path.limit, path.limits.factorisations)  # the rest is for snaps
         if path.load_factor == 0.0:
             path.put(*stuck)
             return Ending(plain)
     return Ending(ended, budget)
 
 
-def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
-    """Lead a path past the limit points at which it ends. Return what has ended it before load factor 1."""
+def _trace_snaps(path: Path[State, Forces], ended: Ending) -> Fault | None:
+    """Lead a path past the limit points at which it ends; return the fault of an end before load factor 1."""
     limits, reason = path.limits, ended.reason
     while isinstance(reason, LoadStepFailed):
         halted = reason.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
         allowed = path.factorisations < path.limit and len(path.snaps) < limits.snaps
         if path.settle is None or not (path.structure.symmetric and halted and allowed):
-            return _give_up(path, reason)
-        left_at, (before, doubt) = path.load_factor, stability(path)
+            return _fault_at_end(path, reason)
+        left_at, (before, reservation) = path.load_factor, stability(path)
         beyond = min(1.0, left_at + limits.snap_step)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
         try:
@@ -153,19 +151,19 @@ def _snapped(path: Path[State, Forces], ended: Ending) -> Fault | None:
             path.put(state, beyond)
         except LoadStepFailed as failure:
             tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
-            return _give_up(path, reason, tried)
+            return _fault_at_end(path, reason, tried)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
-        reason = path.inspect(path) or _follow(path, ended.careful > 0)
+        reason = path.inspect(path) or _take_load_steps(path, ended.careful > 0)
         path.snaps.append(left_at)
         begin = "" if before is Status.CONVERGED else "unstable "
-        snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {doubt}"
-        path.notes.extend([snapped] if doubt else [])
+        snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {reservation}"
+        path.notes.extend([snapped] if reservation else [])
     return reason
 
 
-def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed | Fault | None:
-    """Lead a path on to load factor 1: what has ended it before, if anything. careful: no load step may leave
-    the branch that it begins on."""
+def _take_load_steps(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed | Fault | None:
+    """Continue a path to load factor 1; return the reason of an earlier end, else None. careful: no load step
+    may leave the branch of its start."""
     limits, size = path.limits, 1.0
     reach = limits.careful_reach if careful else limits.first_reach
     factor: Factor | None = None
@@ -175,14 +173,14 @@ def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed 
             first = predicted(path, min(1.0, path.load_factor + size), reach, factor)
             factor = first.factor if path.structure.symmetric else None
             close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
-            state, found = newton(path, first, close)
+            state, last = newton(path, first, close)
             if path.structure.contacts:
                 require_way(path, state, first.target)
             if careful:
-                found, longest = _continuous(path, first, state, found)
+                last, longest = _require_continuous(path, first, state, last)
         except LoadStepFailed as failure:
             size, reach = 0.5 * size, 0.5 * min(reach, failure.length)
-            rested = path.load_factor == 0.0  # no limit point is there, however far the first step
+            rested = path.load_factor == 0.0  # rest is no limit point, however long the first step
             shortest = size < limits.smallest_step and (reach < limits.shortest or not (careful or rested))
             if shortest or path.factorisations >= path.limit:
                 if careful and path.load_factor > 0.0:
@@ -190,21 +188,21 @@ def _follow(path: Path[State, Forces], careful: bool = False) -> LoadStepFailed 
                 return failure
             continue
         grown = first.target - path.load_factor
-        path.put(state, first.target, found)
+        path.put(state, first.target, last)
         if (fault := path.inspect(path)) is not None:
             return fault
         if careful:
-            factor, size, reach = found, limits.growth * grown, longest
+            factor, size, reach = last, limits.growth * grown, longest
             continue
-        # of elements those of the last correction are too far off to step with: a thin sheet's path halts
-        factor = found if limits.steps_with_last_factors else None
+        # with elements the last correction's factors are too inaccurate for a step: a thin sheet's path halts
+        factor = last if limits.steps_with_last_factors else None
         easy = path.factorisations - before <= limits.lengthen_up_to
         size, reach = (limits.growth * grown, limits.reach_growth * reach) if easy else (grown, reach)
     return None
 
 
 def _refine(path: Path[State, Forces]) -> None:
-    """Bring the end of a careful path to the tolerance, at a load lower by what its last step left open."""
+    """Bring the end of a careful path to the tolerance, if necessary at a slightly lower load."""
     for lower in (0.0, 1.0, 2.0, 4.0):
         target = (1.0 - lower * path.limits.careful_tolerance) * path.load_factor
         try:
@@ -215,9 +213,9 @@ def _refine(path: Path[State, Forces]) -> None:
         return
 
 
-def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
-    """Where the path ended, what was tried beyond and, from the last equilibrium's tangent, whether it had
-    branched by then."""
+def _fault_at_end(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
+    """Return the fault of a path's end: its load factor, the attempts beyond, and a branching before it. The
+    last equilibrium's tangent shows whether the path had branched."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
     if path.load_factor > 0.0:
         status, note = stability(path)
@@ -227,9 +225,9 @@ def _give_up(path: Path[State, Forces], failure: LoadStepFailed, tried: str = ""
 
 
 def _careful_budget(path: Path[State, Forces]) -> int:
-    """Return how many factorisations a second, careful run may take, which looks for a branch that large load
-    steps may have left; 0 if none is needed: the equilibrium is stable and was found quickly, or the path is
-    one linear step, without a correction, and has jumped over nothing."""
+    """Return the number of factorisations for a second, careful run, 0 if it is not necessary. The run
+    searches for a branch that large load steps may have left. It is not necessary if the equilibrium is
+    stable and was found quickly, or if the path is a single linear step without a correction."""
     one_step = path.factorisations == 1 and not path.structure.prestrained
     if not path.structure.symmetric or path.load_factor == 0.0 or one_step:
         return 0
@@ -241,23 +239,25 @@ def _careful_budget(path: Path[State, Forces]) -> int:
     return budget if unstable or taken > limits.careful_after else 0
 
 
-def _continuous(
-    path: Path[State, Forces], first: Start[State], state: State, found: Factor | None
+def _require_continuous(
+    path: Path[State, Forces], first: Start[State], state: State, factor: Factor | None
 ) -> tuple[Factor, float]:
-    """Return the factors of the tangent at an equilibrium, and how far the next linear step may go. Raises
-    LoadStepFailed where it is on another branch than the one that the step set out from: far from where the
-    linear step led, or past a change of stability by more than a short step, or, where a natural strain
-    loads it that may not move it, at all. found: the factors, where they are at hand."""
+    """Return the factors of the tangent at an equilibrium, and the largest length of the next linear step.
+
+    Raises LoadStepFailed if the equilibrium is on another branch than the start of the step: if it is far
+    from the end of the linear step, or stability has been lost in a step that is not short or under a natural
+    strain, which may act without displacement. factor: the factors, if available.
+    """
     assert first.factor is not None
     limits, miss = path.limits, path.structure.length(first.state, state)
     if miss > max(min(limits.continuous * first.length, limits.miss), max(limits.idle, limits.tolerance)):
         raise LoadStepFailed(Status.STEP_LIMIT, "the path folds", first.length)
     try:
-        found = found or path.factored(path.tangent(state, first.target))
+        factor = factor or path.factored(path.tangent(state, first.target))
     except SingularMatrixError as error:
         raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
     short = first.length <= limits.branching and not path.structure.prestrained
-    if found.negative > first.factor.negative and not short:
+    if factor.negative > first.factor.negative and not short:
         raise LoadStepFailed(Status.STEP_LIMIT, "the path loses stability", first.length)
     longest = limits.growth * first.length
     if miss > 0.0:  # it grows with the square of the step
@@ -265,4 +265,4 @@ def _continuous(
         longest = min(
             longest, limits.safe * limits.continuous * square, (limits.safe * limits.miss * square) ** 0.5
         )
-    return found, longest
+    return factor, longest

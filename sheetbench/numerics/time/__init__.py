@@ -1,1 +1,1 @@
-"""Motion step after step: what an integrator gives a runner, and how long its steps are."""
+"""Integration in time: the interface of integrators to a run, and the control of the step's length."""

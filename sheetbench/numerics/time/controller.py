@@ -1,12 +1,12 @@
-"""The length of steps by their error, for every integrator that adapts them.
+"""Control of the length of steps by their error, for every integrator that adapts them.
 
-A step of length h with an error ε of the order h^p, where ε₀ is allowed, is followed by one of
+If a step of length h has an error ε of the order h^p, where ε₀ is allowed, the next length is
 
     h min(max(r, ½), growth),    r = 0.9 (ε₀/ε)^(1/p),
 
-unless r lies within a band about 1 in which lengths, and with them factors, stay. It is repeated with
-h max(r, 1/5) where ε > ε₀, and with h/4 where it finds no solution. At the shortest length it counts in
-spite of its error, and the run says so. Source: Hairer and Wanner (1996), IV.8.
+unless r lies within a band about 1, in which the length, and with it factors, are kept. A step is repeated
+with h max(r, 1/5) if ε > ε₀, and with h/4 if it finds no solution. A step of the shortest length is accepted
+in spite of its error, and the run reports it. Source: Hairer and Wanner (1996), IV.8.
 """
 
 from __future__ import annotations
@@ -22,24 +22,24 @@ from sheetbench.numerics.reduced_system import SingularMatrixError
 SAFETY = 0.9
 
 T = TypeVar("T")
-Tried = tuple[T, float, float]  # a step, its error and what is allowed
+Tried = tuple[T, float, float]  # a step, its error and the allowed error
 
 
 class StepFailed(ArithmeticError):
-    """A time step found no solution; the text says why."""
+    """A time step without a solution; the text is the reason."""
 
 
 class Remembering:
-    """Something with attributes that a resumed run needs. remembered: their names."""
+    """Base of objects with attributes that a resumed run needs. remembered: their names."""
 
     remembered: ClassVar[tuple[str, ...]] = ()
 
     def memory(self) -> dict[str, Any]:
-        """Return what a resumed run needs besides the state."""
+        """Return the attributes that a resumed run needs besides the state."""
         return {name: getattr(self, name) for name in self.remembered}
 
     def recall(self, memory: dict[str, Any]) -> None:
-        """Take up what `memory` gave."""
+        """Restore the attributes from `memory`."""
         for name in self.remembered:
             value = np.asarray(memory[name])
             setattr(self, name, value if value.ndim else value.item())
@@ -47,8 +47,9 @@ class Remembering:
 
 @dataclass
 class Controller(Remembering):
-    """order: p; growth: the longest step after one, over that; band: of r, in which lengths stay; step: the
-    next to be tried [s]; floored: steps that counted in spite of their error; rejected: those repeated."""
+    """Control of the steps of one integrator. order: p. growth: largest ratio of consecutive lengths. band:
+    of r, in which the length is kept. step: length of the next trial [s]. floored: number of steps accepted
+    in spite of their error. rejected: number of repeated steps."""
 
     remembered = ("step", "floored", "rejected")
     order: int
@@ -59,8 +60,8 @@ class Controller(Remembering):
     rejected: int = 0
 
     def dividing(self, at_most: float, fewer: float = np.inf) -> float:
-        """Return a step no longer than the one to be tried that divides a time [s] evenly; that one itself
-        where these are not `fewer` steps."""
+        """Return a step no longer than the next trial that divides a time [s] evenly. The trial's own length
+        is returned if the time takes `fewer` steps or more."""
         count = np.ceil(at_most / self.step - 1e-9)
         return float(at_most / count) if count < fewer else self.step
 
@@ -71,13 +72,13 @@ class Controller(Remembering):
     def take(
         self, attempt: Callable[[float], Tried[T]], at_most: float, shortest: float, fewer: float = np.inf
     ) -> tuple[T, float]:
-        """Return the first step of at most so long [s] that counts, and its length [s]; the next one's length
-        follows. attempt: a step of a length, its error and what is allowed; shortest [s]: a step no longer
-        always counts. Raises StepFailed where it finds no solution."""
+        """Return the first accepted step no longer than `at_most` [s], and its length [s]. attempt: makes a
+        step of a length, with its error and the allowed error. shortest: length [s] up to which a step is
+        always accepted. The length of the next trial is set. Raises StepFailed if there is no solution."""
         while True:
             h = self.dividing(at_most, fewer)
             try:
-                found, error, allowed = attempt(h)
+                step, error, allowed = attempt(h)
             except (StepFailed, SingularMatrixError) as failure:
                 if h < shortest:
                     raise StepFailed(f"{failure} in a step of {h:.3g} s") from None
@@ -91,10 +92,10 @@ class Controller(Remembering):
             self.floored += error > allowed
             if not self.band[0] <= ratio <= self.band[1]:
                 self.step = h * min(max(ratio, 0.5), self.growth)
-            return found, h
+            return step, h
 
     def notes(self) -> str:
-        """Return a clause on steps that counted in spite of their error."""
+        """Return a clause on steps accepted in spite of their error, "" without any."""
         if not self.floored:
             return ""
         count = f"{self.floored} step{'s' * (self.floored > 1)} of the shortest length"

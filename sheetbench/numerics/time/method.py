@@ -1,4 +1,4 @@
-"""An integrator as a runner sees it: states one after the other, and those within the last step.
+"""Interface of an integrator to a run: consecutive states, and states within the last step.
 
 A state is an immutable object with its `time` [s], whose other fields are arrays or None.
 """
@@ -20,8 +20,7 @@ AnyState = TypeVar("AnyState", bound=Any)  # with its `time` [s]
 
 @dataclass(frozen=True)
 class Advance(Generic[AnyState]):
-    """A step taken, or several of one length: the new state, the energies [J] that were dissipated and put in
-    meanwhile, and how many steps."""
+    """A step, or several of one length: the new state, dissipated energy and work [J], number of steps."""
 
     state: AnyState
     dissipated: float
@@ -32,9 +31,9 @@ class Advance(Generic[AnyState]):
 class MotionMethod(Remembering, ABC, Generic[AnyState]):
     """An integrator of a model's motion.
 
-    state: the class of its states; adapts: whether it chooses its steps by their error, with `control`; span:
-    samples after which a step has to end, one if it knows no states within steps, None if none has to; kinks:
-    times [s] at which a step has to end, sorted.
+    state: the class of its states. adapts: whether it chooses its steps by their error, with `control`. span:
+    number of samples after which a step must end: one without states within steps, None without a limit.
+    kinks: times [s] at which a step must end, sorted.
     """
 
     state: Any
@@ -45,31 +44,31 @@ class MotionMethod(Remembering, ABC, Generic[AnyState]):
 
     @abstractmethod
     def go(self, state: AnyState, at_most: float) -> Advance[AnyState]:
-        """Return a step, or several of one length, no longer than `at_most` [s]. Raises StepFailed, or
+        """Return a step, or several of one length, no longer than `at_most` [s]. Raises StepFailed or
         SingularMatrixError."""
 
     @abstractmethod
     def at(self, times: np.ndarray, last: Advance[AnyState]) -> Any:
-        """Return the states at times (k,) [s] within the last step, as an observer takes them: `time`, and
-        the energies (k,) [J] `dissipated` and put in, `work`, since that began."""
+        """Return samples at times (k,) [s] within the last step, for an observer. They have `time`, and the
+        energies `dissipated` and `work` (k,) [J] since the start of the step."""
 
     def settings(self) -> dict[str, Any]:
-        """Return what a history says of its steps beside what was requested."""
+        """Return the settings of the steps for a history, beyond the requested ones."""
         return {}
 
     def notes(self) -> str:
-        """Return a clause on steps that counted in spite of their error, "" for none."""
+        """Return a clause on steps accepted in spite of their error, "" without any."""
         return "" if self.control is None else self.control.notes()
 
     def memory(self) -> dict[str, Any]:
-        """Return what a resumed run needs besides the state."""
+        """Return the attributes that a resumed run needs besides the state."""
         return super().memory() | ({} if self.control is None else self.control.memory())
 
     def recall(self, memory: dict[str, Any]) -> None:
-        """Take up what `memory` gave."""
+        """Restore the attributes from `memory`."""
         super().recall(memory)
         if self.control is not None:
             self.control.recall(memory)
 
     def forget(self) -> None:
-        """Drop what was kept only for speed, so that a resumed run goes on exactly as one never stopped."""
+        """Drop data kept only for speed, so that a resumed run equals an uninterrupted one exactly."""

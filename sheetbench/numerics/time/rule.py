@@ -1,4 +1,4 @@
-"""Generalised-α: coefficients, error and equation of a step, for whoever solves that.
+"""Generalised-α: coefficients, error and equation of a step, without its solution.
 
     M a₁ + f(u₁, v₁, t₁) = 0                               equilibrium at the step's end, constraints included
     (1 − αm) a'₁ + αm a'₀ = (1 − αf) a₁ + αf a₀            a': the algorithm's acceleration
@@ -6,13 +6,12 @@
 
     αm = (2ρ − 1)/(ρ + 1),  αf = ρ/(ρ + 1),  γ = ½ + αf − αm,  β = ¼ (γ + ½)²
 
-ρ is the spectral radius at high frequencies. a' is the acceleration at t + (αm − αf) h, which gives the local
-error of u, h² (β + ½ (αm − αf) − 1/6) |a'₁ − a'₀|, and what becomes of a' where the length changes:
-a + (a' − a) h/h_before. Source: Chung and Hulbert (1993) in the form of Arnold and Brüls (2007), of second
-order with constraints too.
+ρ is the spectral radius at high frequencies. a' is the acceleration at t + (αm − αf) h. So the local error of
+u is h² (β + ½ (αm − αf) − 1/6) |a'₁ − a'₀|, and a change of the length turns a' into a + (a' − a) h/h_before.
+Source: Chung and Hulbert (1993) in the form of Arnold and Brüls (2007), of second order with constraints too.
 
-Backward Euler, u₁ = u₀ + h v₁ and v₁ = v₀ + h a₁, is of the same form; its local error is ½ h² |a₁|.
-With u₁ as its unknown a step of either has v₁ = v̂ + c₁ (u₁ − û) and a₁ = c₂ (u₁ − û) (`AlphaStep`).
+Backward Euler, u₁ = u₀ + h v₁ and v₁ = v₀ + h a₁, has this form; its local error is ½ h² |a₁|. A step of
+either rule with u₁ as its unknown has v₁ = v̂ + c₁ (u₁ − û) and a₁ = c₂ (u₁ − û) (`AlphaStep`).
 """
 
 from __future__ import annotations
@@ -25,8 +24,8 @@ from sheetbench.errors import BadInput
 
 
 class Rule(NamedTuple):
-    """Coefficients of a step: αm, αf, γ, β, and `old`, that of h² a'₀ in u₁; order: of u's local error;
-    error: that over h² |a'₁ − a'₀|, of backward Euler over h² |a₁|."""
+    """Coefficients of a step: αm, αf, γ, β, and `old`, the coefficient of h² a'₀ in u₁. order: of u's local
+    error. error: the local error over h² |a'₁ − a'₀|, for backward Euler over h² |a₁|."""
 
     am: float
     af: float
@@ -49,8 +48,8 @@ BACKWARD_EULER = Rule(0.0, 0.0, 1.0, 1.0, 0.0, 2, 0.5)
 
 
 def generalised(radius: float) -> Rule:
-    """Return generalised-α's coefficients for a spectral radius at high frequencies. Raises BadInput for one
-    that is none."""
+    """Return generalised-α's coefficients for a spectral radius at high frequencies in [0, 1]. Raises
+    BadInput for other values."""
     if not 0.0 <= radius <= 1.0:
         raise BadInput(f"radius = {radius:g}: the spectral radius at high frequencies lies in [0, 1]")
     am, af = (2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0)
@@ -60,8 +59,8 @@ def generalised(radius: float) -> Rule:
 
 
 class AlphaStep(NamedTuple):
-    """A step of h [s] with u₁ as its unknown: û, v̂ and â', which u₁, v₁ and a'₁ are where a₁ = 0; c₁ [1/s];
-    c₂ [1/s²]; `to_a`, a'₁ − â' over a₁; guess: u₁ with a'₁ = a'₀."""
+    """A step of h [s] with u₁ as its unknown: û, v̂ and â', the values of u₁, v₁ and a'₁ for a₁ = 0. by_v: c₁
+    [1/s]. by_a: c₂ [1/s²]. to_a: (a'₁ − â')/a₁. guess: u₁ for a'₁ = a'₀."""
 
     base_u: np.ndarray
     base_v: np.ndarray
@@ -95,5 +94,5 @@ def step_of(rule: Rule, h: float, u: np.ndarray, v: np.ndarray, a: np.ndarray, o
 
 
 def shifted(a: np.ndarray, algorithm: np.ndarray, h: float, before: float) -> np.ndarray:
-    """Return a' as steps of h [s] have it, of a and of that of steps of `before` [s], 0 for none."""
+    """Return a' for steps of h [s] from a and its value for steps of `before` [s], 0 without any."""
     return a + (h / before if before else 1.0) * (algorithm - a)

@@ -1,1 +1,1 @@
-"""The language of scenes: units, keys, schema, faults in one line, TOML; knows no object of a scene."""
+"""The language of scenes: units, keys, schema, faults in one line, TOML; depends on no object of a scene."""

@@ -1,14 +1,14 @@
-"""Keys of a scene that people ask for and that sheetbench does not have, with what it has instead.
+"""Keys that are often written into a scene but name no feature of sheetbench, and a sentence for each.
 
-They are refused with that sentence and the page of limits, not as slips of typing. Whoever adds one of them
-takes its line away.
+The refusal of a scene shows the sentence, which names the nearest feature, and the page of limits instead of
+a guess at a slip of typing. A feature that is added takes its line away here.
 """
 
 from __future__ import annotations
 
 PAGE = "docs/limits.md"
 
-INSTEAD = {  # by the words that people write: what sheetbench has
+INSTEAD = {  # by the words that are often written: the feature of sheetbench
     "layers laminate laminates ply plies lamina": "a laminate is [[layer]]s, from the lower face up, each "
     "with its thickness and angle",
     "hole holes cutouts cut cuts slit slits notch notches": "a hole, a slit or a notch is a [[cutout]] with "
@@ -50,6 +50,6 @@ WISHES = {word: sentence for words, sentence in INSTEAD.items() for word in word
 
 
 def wish(word: str) -> str | None:
-    """The sentence about a key or a kind that is not modelled, with the page; None for any other."""
+    """Return the sentence about a key or a kind that is not modelled, with the page, else None."""
     sentence = WISHES.get(word.lower().replace("-", "_"))
     return f"{sentence} ({PAGE})" if sentence else None

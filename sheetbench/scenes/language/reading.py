@@ -1,4 +1,4 @@
-"""Text files of a user's, up to a size that such a file may have: a device, or a film, has no end."""
+"""Reading of a user's text files, up to a largest size: a device has no end, and a film is no text."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ LARGEST = 2**26  # bytes
 
 
 def read_text(path: Path, most: int = LARGEST) -> str:
-    """The text of a file in UTF-8, without the mark that some editors put before it, lines ended by "\\n".
+    """Return the text of a file in UTF-8, without a byte order mark, with lines ended by "\\n".
 
-    Raises BadInput for a larger file, OSError and UnicodeDecodeError as reading does.
+    Raises BadInput for a file above `most` bytes, OSError and UnicodeDecodeError as `open` does.
     """
     with path.open("rb") as file:
         read = file.read(most + 1)

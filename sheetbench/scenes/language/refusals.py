@@ -1,8 +1,8 @@
-"""Why a scene is refused: pydantic's list of faults as one line that names key, value and what is allowed.
+"""The reason of a scene's refusal: pydantic's list of faults as one line of keys, values and allowed values.
 
     load 2.pressure = 200.0: unknown key; known here are history, kind, value
 
-Lists count from 1. Of many faults the first three are named, and how many more there are.
+Lists count from 1. The line names at most three faults, and the number of further ones.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ MANY_DIGITS = 30
 
 
 def in_one_line(error: ValidationError, model: type[BaseModel]) -> str:
-    """The faults of data for `model`, separated by semicolons."""
-    faults = [fault for fault in error.errors(include_url=False) if not _follows(fault)]
+    """Return the faults of data for `model`, separated by semicolons."""
+    faults = [fault for fault in error.errors(include_url=False) if not _is_consequence(fault)]
     more = [f"and {len(faults) - SHOWN} more"] if len(faults) > SHOWN else []
     return "; ".join([*(_sentence(fault, json_schema(model)) for fault in faults[:SHOWN]), *more])
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:
-    """The known word that is nearest in spelling, if any is near."""
+    """Return the known word that is nearest in spelling, None if none is near."""
     by_lower = {name.lower(): name for name in known}
     near = get_close_matches(word.lower(), by_lower, n=1)
     return by_lower[near[0]] if near else None
 
 
 def shown(value: Any) -> str:
-    """A value as it was written, shortened where it is long."""
+    """Return a value as it was written, shortened if it is long."""
     return _SHORT.repr(value)
 
 
@@ -49,27 +49,27 @@ class _Short(Repr):
         return repr(x) if digits <= MANY_DIGITS else f"a number of about {digits} digits"
 
     def repr_bool(self, x: bool, level: int) -> str:
-        return str(x).lower()  # as TOML has it
+        return str(x).lower()  # TOML's spelling
 
 
 _SHORT = _Short()
 _SHORT.maxstring = _SHORT.maxother = LONGEST
 
 
-def _follows(fault: Any) -> bool:
-    """Whether the fault only counts the entries that other faults have left."""
+def _is_consequence(fault: Any) -> bool:
+    """Return whether a fault only counts the entries that other faults have left."""
     return fault["type"] == "too_short" and len(fault["input"]) >= fault["ctx"]["min_length"]
 
 
 def _sentence(fault: Any, schema: dict[str, Any]) -> str:
-    where, nodes = _place(fault["loc"], schema)
+    where, nodes = _locate(fault["loc"], schema)
     key, value, facts = in_keys(where), fault["input"], fault.get("ctx", {})
     given = f"{key} = {shown(value)}"
     match fault["type"]:
         case "extra_forbidden":
             if not_modelled := wish(str(where[-1])):
                 return f"{key}: {not_modelled}"
-            keys = _keys(_place(fault["loc"][:-1], schema)[1])
+            keys = _keys(_locate(fault["loc"][:-1], schema)[1])
             near = did_you_mean(str(where[-1]), keys)
             hint = f"did you mean {near}?" if near else f"known here are {', '.join(keys)}"
             return f"{given}: unknown key; {hint}"
@@ -95,7 +95,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
                 return f"{key}: {error}"
             return f"{key}: '{value}' is text: write the number [{unit}] without quotes, or with a unit"
         case "tuple_type":
-            if _keys([entry for node in nodes for entry in _inside(node, 0, schema)]):
+            if _keys([entry for node in nodes for entry in _nodes_inside(node, 0, schema)]):
                 return f"{given}: must be a list of tables, each headed [[{key}]]"
             sizes = [f" of {len(node['prefixItems'])}" for node in nodes if "prefixItems" in node]
             return f"{given}: must be a list{min(sizes, default='')}"
@@ -109,8 +109,8 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
 
 
 def unit_at(location: tuple[int | str, ...], schema: dict[str, Any]) -> str | None:
-    """The SI unit of the number at a location, or None where it has none."""
-    places = (_place(location[:end], schema)[1] for end in range(len(location), 0, -1))
+    """Return the SI unit of the number at a location, or None if it has none."""
+    places = (_locate(location[:end], schema)[1] for end in range(len(location), 0, -1))
     return next((str(node["unit"]) for nodes in places for node in nodes if "unit" in node), None)
 
 
@@ -132,19 +132,19 @@ ALLOWED = {  # by pydantic's types of fault
 
 
 def _choose(word: object, nodes: list[dict[str, Any]]) -> str:
-    """What may stand in place of a word: the kinds of tables, or the texts that a key takes."""
+    """Return the words allowed in place of a word: the kinds of tables, or the texts that a key takes."""
     tables = [node["properties"]["kind"] for node in nodes if kind(node)]
     choices = [str(each) for one in tables or nodes for each in one.get("enum", [one.get("const")])]
     near = did_you_mean(str(word), choices)
     return f"did you mean {near}? " * bool(near) + f"choose one of {', '.join(choices)}"
 
 
-def _place(
+def _locate(
     location: tuple[int | str, ...], schema: dict[str, Any]
 ) -> tuple[list[int | str], list[dict[str, Any]]]:
-    """The keys and list numbers of a fault's location, and what the schema says may stand there.
+    """Return the keys and list numbers of a fault's location, and the nodes of the schema there.
 
-    Between them pydantic names the kind of table that it took, which no key is.
+    Between them pydantic names the kind of table that it took, which is no key.
     """
     where: list[int | str] = []
     nodes = branches(schema, schema)
@@ -153,7 +153,7 @@ def _place(
         if of_kind and len(nodes) > 1:
             nodes = of_kind
             continue
-        inside = [below for node in nodes for below in _inside(node, part, schema)]
+        inside = [below for node in nodes for below in _nodes_inside(node, part, schema)]
         if isinstance(part, str) and not inside and part in _FORMS:
             continue
         where.append(part)
@@ -164,8 +164,8 @@ def _place(
 _FORMS = {"a number", "a list", "a table"}
 
 
-def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:
-    """What the schema says about an entry of a list or a key of a table."""
+def _nodes_inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the schema's nodes of an entry of a list or a key of a table."""
     if isinstance(part, int):
         items = (node.get("prefixItems") or [])[part : part + 1] or [node.get("items")]
     else:
@@ -174,12 +174,12 @@ def _inside(node: dict[str, Any], part: int | str, schema: dict[str, Any]) -> li
 
 
 def in_keys(where: Iterable[int | str]) -> str:
-    """The keys and list numbers of a place, as 'load 2.pressure'."""
+    """Return the keys and list numbers of a place as text: 'load 2.pressure'."""
     texts = (f" {p + 1}" if isinstance(p, int) else f".{p}" for p in where)
     parts = (text if len(text) <= LONGEST + 1 else f"{text[: LONGEST + 1]}…" for text in texts)
     return "".join(parts).removeprefix(".")
 
 
 def _keys(nodes: list[dict[str, Any]]) -> list[str]:
-    """The keys of the tables that may stand here, sorted."""
+    """Return the keys of the tables that may stand at a place, sorted."""
     return sorted({key for node in nodes for key in node.get("properties", {})})

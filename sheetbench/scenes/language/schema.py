@@ -1,8 +1,8 @@
 """The scene language as a JSON Schema (draft 2020-12), read off the types: every key, unit, bound, default.
 
-Editors complete and check a scene with it; the reference page and the refusals are made of it too. Beside the
-standard's keywords a number has `unit`, its SI unit, and may have `hint`, what to write beyond its bounds.
-Absent is absent: TOML has no null.
+Editors complete and check a scene with it; the reference page and the refusals are made of it too. A number
+has two keywords more than the standard's: `unit`, its SI unit, and `hint`, a value to write in place of one
+beyond its bounds. Null does not occur: TOML has none.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 
 
 class _AsWritten(GenerateJsonSchema):
-    """Without null, which no scene can hold, and without titles, which only repeat the keys."""
+    """Generator of a schema without null, which no scene can hold, and without titles, which repeat keys."""
 
     def nullable_schema(self, schema: Any) -> JsonSchemaValue:
         return self.generate_inner(schema["schema"])
@@ -30,7 +30,7 @@ class _AsWritten(GenerateJsonSchema):
 
 @cache
 def json_schema(model: type[BaseModel]) -> dict[str, Any]:
-    """The schema of a scene or a part of it; classes under `$defs`."""
+    """Return the schema of a scene or a part of it, with classes under `$defs`."""
     schema = model.model_json_schema(by_alias=True, schema_generator=_AsWritten)
     for table in (schema, *schema.get("$defs", {}).values()):
         keys = table.get("properties", {})
@@ -44,7 +44,7 @@ def json_schema(model: type[BaseModel]) -> dict[str, Any]:
 
 @cache
 def for_editors(model: type[BaseModel]) -> dict[str, Any]:
-    """The schema as a document of its own, with the units in the sentences, which editors show."""
+    """Return the schema as a document for editors, which show its sentences: they contain the units."""
     schema = deepcopy(json_schema(model))
     for table in (schema, *schema["$defs"].values()):
         for key in table["properties"].values():
@@ -55,7 +55,7 @@ def for_editors(model: type[BaseModel]) -> dict[str, Any]:
 
 
 def _or_text(node: Any) -> None:
-    """Let every number within a node be text with a unit, as "2 mm"."""
+    """Let every number within a node also be text with a unit, as "2 mm"."""
     if isinstance(node, list):
         for entry in node:
             _or_text(entry)
@@ -68,14 +68,14 @@ def _or_text(node: Any) -> None:
 
 
 def _ask_for_kind(table: dict[str, Any]) -> None:
-    """A table of several kinds has to say which it is: only an object in Python knows that by itself."""
+    """Require `kind` of a table that has several kinds: only an object in Python has it by its class."""
     table["properties"]["kind"].pop("default", None)
     table["required"] = sorted({"kind", *table.get("required", ())}, key=list(table["properties"]).index)
 
 
 @cache
 def sentences(table: type[BaseModel]) -> dict[str, str]:
-    """What stands below each key of a class and of its bases, from their source."""
+    """Return the sentence below each key of a class and of its bases, from their source code."""
     texts: dict[str, str] = {}
     for each in reversed(table.__mro__):
         if not (issubclass(each, BaseModel) and each.model_fields):
@@ -89,13 +89,13 @@ def sentences(table: type[BaseModel]) -> dict[str, str]:
             match key, below:
                 case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
                     texts[name] = " ".join(text.split())
-    if "kind" in table.model_fields:  # which it is, is what the class is
-        texts.setdefault("kind", " ".join((table.__doc__ or "").split()))
+    if "kind" in table.model_fields:  # the kind stands for the class
+        texts.setdefault("kind", " ".join((vars(table)["__doc__"] or "").split()))
     return texts
 
 
 def resolved(schema: dict[str, Any], node: dict[str, Any]) -> dict[str, Any]:
-    """The node that a reference stands for, with the description given beside it."""
+    """Return the node that a reference stands for, with the keywords given beside the reference."""
     if "$ref" not in node:
         return node
     beside = {key: value for key, value in node.items() if key != "$ref"}
@@ -103,13 +103,13 @@ def resolved(schema: dict[str, Any], node: dict[str, Any]) -> dict[str, Any]:
 
 
 def branches(schema: dict[str, Any], node: dict[str, Any]) -> list[dict[str, Any]]:
-    """The alternatives of a node: its kinds, or the forms that a value may have; itself where it has none."""
+    """Return the alternatives of a node, its kinds or the forms of its value; the node if it has none."""
     node = resolved(schema, node)
     either = node.get("oneOf") or node.get("anyOf")
     return [node] if either is None else [part for each in either for part in branches(schema, each)]
 
 
 def kind(table: dict[str, Any]) -> str | None:
-    """The `kind` that a table's key of that name asks for."""
+    """Return the value that a table's key `kind` must have, None without this key."""
     key: dict[str, Any] = table.get("properties", {}).get("kind", {})
     return key.get("const")

@@ -1,4 +1,4 @@
-"""Scenes as TOML text: tables with their headings, what lies deeper within a line."""
+"""Scenes as TOML text: a heading for each table, inline tables for the tables within."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ LARGE = 1e5  # written with an exponent, as 54.5e6
 
 
 def to_toml(scene: Any) -> str:
-    """The scene as the text of a file, from which `load` reads an equal one; all digits."""
+    """Return the text of a file, with all digits, from which `load` reads a scene equal to this one."""
     return dumps(keys(scene))
 
 
 def dumps(data: Mapping[str, Any]) -> str:
-    """Return tables with headings as text; all digits."""
+    """Return tables as text with headings and all digits."""
     text = tomlkit.document()
     for key, value in data.items():
         text[key] = _headed(value)
@@ -26,13 +26,13 @@ def dumps(data: Mapping[str, Any]) -> str:
 
 
 def keys(scene: Any) -> dict[str, Any]:
-    """The scene's keys and values as they stand in a file; what is absent or empty is left out."""
+    """Return the keys and values of a scene's file, without empty ones."""
     data = scene.document()
     return {key: value for key, value in data.items() if value not in ("", [], {})}
 
 
 def line(key: str, value: Any) -> str:
-    """`key = value` in one line."""
+    """Return `key = value` in one line."""
     return tomlkit.dumps({key: _within_a_line(value)}).rstrip("\n")
 
 

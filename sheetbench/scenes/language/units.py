@@ -1,7 +1,7 @@
-"""Quantities as people write them, `2 mm`, `0.6 MPa`, `1.2 g/cm³`, `5 ms`, as numbers in SI units.
+"""Quantities written with their units, `2 mm`, `0.6 MPa`, `1.2 g/cm³`, `5 ms`, as numbers in SI units.
 
 A unit is a product of powers of the units in `UNITS`, some of which take an SI prefix; `*`, `·` or a space
-multiply and `/` divides. What stands for another dimension than the one requested is refused by name.
+multiply and `/` divides. A unit of another dimension than the requested one is refused by name.
 """
 
 from __future__ import annotations
@@ -80,9 +80,9 @@ POWERS = str.maketrans("¹²³⁴⁻", "1234-")
 
 
 def quantity(text: str, unit: str) -> float:
-    """The number in the SI unit `unit` of a text as `2 mm`; one without a unit is in SI units.
+    """Return a text as `2 mm` as a number in the SI unit `unit`, which a number without a unit has already.
 
-    Raises BadInput, in a sentence, for what is no number, no unit or a unit of something else.
+    Raises BadInput, in a sentence, if the text is no number, its unit unknown or of another dimension.
     """
     example = NAMES.get(unit, ("", f"1 {unit}"))[1]
     match = NUMBER.fullmatch(text)
@@ -95,7 +95,8 @@ def quantity(text: str, unit: str) -> float:
     if match[2]:
         size, dimension = _unit(match[2])
         if dimension != _unit(unit)[1]:
-            raise BadInput(f"'{text}' is {_named(dimension, match[2])}; needed is {_called(unit)}: {example}")
+            needed = f"needed is {_with_article(unit)}: {example}"
+            raise BadInput(f"'{text}' is {_dimension_name(dimension, match[2])}; {needed}")
         value *= size / _unit(unit)[0]
     if abs(value) > LARGEST:
         raise BadInput(f"'{text}' is too large")
@@ -103,9 +104,9 @@ def quantity(text: str, unit: str) -> float:
 
 
 def converted(value: object, unit: str) -> object:
-    """A number given as text with a unit, in SI units, and those in lists and tables; all else as it is.
+    """Convert texts with a unit, also within lists and tables, to numbers in SI units; keep other values.
 
-    What is no quantity of this unit is left for whoever checks the number, and refuses it where it stands.
+    A text that is no quantity of this unit is kept: the check of the number refuses it and names its key.
     """
     if isinstance(value, str):
         match = NUMBER.fullmatch(value)
@@ -121,8 +122,8 @@ def converted(value: object, unit: str) -> object:
 
 
 def numbers(data: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:
-    """Return the numbers of these keys, by their units, in SI units; none where one is missing or no number,
-    which whoever checks that key says."""
+    """Return the numbers of the keys in `units`, in SI units; an empty dict if one is missing or no number.
+    The check of the key itself reports the fault."""
     try:
         texts: dict[str, Any] = {key: converted(data[key], unit) for key, unit in units.items()}
         return {key: float(text) for key, text in texts.items()}
@@ -132,7 +133,7 @@ def numbers(data: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, floa
 
 @cache
 def _unit(text: str) -> tuple[Fraction, Dimension]:
-    """Size in SI units and dimension of a unit. Raises BadInput where a part of it is none."""
+    """Return the size in SI units and the dimension of a unit. Raises BadInput if a part of it is unknown."""
     size, dimension, sign = Fraction(1), [0, 0, 0, 0, 0], 1
     for part in re.split(r"([*·⋅ /]+)", text):
         if not part.strip(" ·*⋅"):
@@ -142,8 +143,8 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
             continue
         match = FACTOR.fullmatch(part)
         if match is None or match[1] not in SPELLED:
-            alike = [unit for unit in SPELLED if unit.casefold() == part.casefold()]
-            meant = f" ({' or '.join(alike)}?)" if alike else ""
+            candidates = [unit for unit in SPELLED if unit.casefold() == part.casefold()]
+            meant = f" ({' or '.join(candidates)}?)" if candidates else ""
             known = ", ".join(list(UNITS)[:-1])
             raise BadInput(f"'{part}' is no unit known here{meant}; known are {known}, with prefixes G to µ")
         power = sign * int((match[2] or "1").translate(POWERS))
@@ -156,22 +157,22 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
     return size, tuple(dimension)
 
 
-def _named(dimension: Dimension, unit: str) -> str:
-    """What a unit is of, with its article."""
+def _dimension_name(dimension: Dimension, unit: str) -> str:
+    """Return the quantity that a unit measures, with its article."""
     for known in NAMES:
         if _unit(known)[1] == dimension:
-            return _called(known)
+            return _with_article(known)
     return f"in {unit}"
 
 
-def _called(unit: str) -> str:
+def _with_article(unit: str) -> str:
     name = NAMES.get(unit, (f"quantity in {unit}", ""))[0]
     return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
 def amount(name: str, value: float | str, unit: str) -> float:
-    """Return a number in an SI unit, or a quantity as people write it, of an argument by its name. Raises
-    BadInput for anything else."""
+    """Convert an argument, a number in an SI unit or a text with a unit, to a number in the SI unit. Raises
+    BadInput, with the argument's name, for other values."""
     if isinstance(value, str):
         try:
             return quantity(value, unit)

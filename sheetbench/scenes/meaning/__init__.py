@@ -1,1 +1,1 @@
-"""The meaning of a scene's words, the same to every model: regions, composition, kinematics, sentences."""
+"""The meaning of a scene's words, one for every model: regions, composition, kinematics, sentences."""

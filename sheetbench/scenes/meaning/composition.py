@@ -1,8 +1,8 @@
-"""What a sheet is made of at a point: tapers of its thickness, and patches, of which later ones win.
+"""Composition of a sheet at a point: tapers of its thickness, and patches, of which the last one wins.
 
     h(x, y) = thickness · (taper_x(x)/thickness) · (taper_y(y)/thickness)
 
-outside patches with a thickness of their own. A plain sheet is the same all over.
+outside patches with a thickness of their own. A plain sheet is homogeneous.
 """
 
 from __future__ import annotations
@@ -23,13 +23,12 @@ from sheetbench.scenes.objects.orthotropy import in_own_axes
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.shapes import COINCIDENT, straight_sides
 
-FINE = 33  # lines between which a taper is taken for its mean
+FINE = 33  # lines a side; between them a taper has its mean thickness
 LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
 
 
 class Part(NamedTuple):
-    """share: (rows, columns) of each cell's area that a part of the sheet takes; constants: (rows, columns),
-    its own there."""
+    """A part of the sheet on a grid: its share of each cell's area, and its constants, (rows, columns)."""
 
     share: np.ndarray
     constants: Constants
@@ -42,21 +41,20 @@ def of_sheet(scene: SceneFields) -> Constants:
 
 
 def constants_at(scene: SceneFields, points: np.ndarray) -> Constants:
-    """Return the constants at plan points (…, 2) [m], arrays (…); of a sheet that is the same all over its
-    numbers."""
+    """Return the constants at plan points (…, 2) [m], arrays (…); numbers if the sheet is homogeneous."""
     sheet = of_sheet(scene)
     if scene.homogeneous:
         return sheet
     constants = sheet.arrays(points.shape[:-1])
     constants.thickness[...] = scene.sheet.thickness_at(points[..., 0], points[..., 1])
     for patch in scene.patches:
-        _put(constants, patch.own, patch.shape.contains(points))
+        _write_constants(constants, patch.own, patch.shape.contains(points))
     return constants
 
 
 def composition_at(scene: SceneFields, points: np.ndarray) -> dict[str, np.ndarray]:
-    """Return what the sheet is made of at plan points (…, 2) [m]: the number of its patch, 0 for none, and
-    the constants by their names, (…) each."""
+    """Return constants and, if there are patches, their numbers at plan points (…, 2) [m], by name. Each is
+    an array (…); points outside patches have the number 0."""
     patch = np.zeros(points.shape[:-1])
     for number, each in enumerate(scene.patches, start=1):
         patch[each.shape.contains(points)] = number
@@ -64,7 +62,7 @@ def composition_at(scene: SceneFields, points: np.ndarray) -> dict[str, np.ndarr
     return {"patch": patch, **constants} if scene.patches else constants
 
 
-def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
+def _write_constants(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
     """Write a patch's own constants into arrays."""
     for name, value in own.items():
         if name in NUMBERS:
@@ -75,22 +73,22 @@ def _put(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
 
 
 def parts_between(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> Iterator[Part]:
-    """Yield the parts of the sheet that have a share in the cells between lines at x and at y [m], as if it
-    had no outline. The shares of a cell sum up to 1; the thickness of a taper is that in its middle."""
+    """Yield the parts of the sheet with their shares of the cells between lines at x and at y [m]. An outline
+    is ignored: the shares of every cell add up to 1. A taper has its thickness of a cell's middle."""
     middle = 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1])
     plain = of_sheet(scene).replace(thickness=scene.sheet.thickness_at(*np.meshgrid(*middle)))
     left_over = np.ones((len(y) - 1, len(x) - 1))
-    for area, own in _disjoint(own_patches(scene)):
+    for area, own in _disjoint_areas(own_patches(scene)):
         share = shares_of(area, x, y)
         left_over -= share
         constants = plain.arrays(left_over.shape)
-        _put(constants, own)
+        _write_constants(constants, own)
         yield Part(share, constants)
     yield Part(_without_rounding(left_over), plain.arrays(left_over.shape))
 
 
 def shares_of(area: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """What share an area takes of every cell between lines at x and at y [m], (rows, columns)."""
+    """Return an area's share (rows, columns) of every cell between lines at x and at y [m]."""
     import shapely
 
     shapely.prepare(area)
@@ -102,7 +100,7 @@ def shares_of(area: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The cells between lines at x and at y [m], (rows, columns)."""
+    """Return the cells between lines at x and at y [m] as boxes of shapely, (rows, columns)."""
     import shapely
 
     low, left = np.meshgrid(y[:-1], x[:-1], indexing="ij")
@@ -111,34 +109,33 @@ def boxes_of(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def own_patches(scene: SceneFields) -> tuple[Patch, ...]:
-    """Return the patches that change what the sheet is made of: none of the sheet's own constants, unless it
-    covers part of another."""
+    """Return the patches that change the composition. A patch with the sheet's own constants changes it only
+    where it covers another patch."""
     even = not (scene.sheet.taper_x or scene.sheet.taper_y)
     usual = {**vars(scene.material), "thickness": scene.sheet.thickness if even else None}
-    found: list[Patch] = []
+    patches: list[Patch] = []
     for patch in scene.patches:
         differs = any(value != usual.get(name) for name, value in patch.own.items())
-        covers = any(patch.shape.area.intersects(each.shape.area) for each in found)
+        covers = any(patch.shape.area.intersects(each.shape.area) for each in patches)
         if differs or (patch.own and covers):
-            found.append(patch)
-    return tuple(found)
+            patches.append(patch)
+    return tuple(patches)
 
 
-def _disjoint(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
-    """The areas in which the same patches lie upon each other, and the constants that are not the sheet's
-    there."""
+def _disjoint_areas(patches: tuple[Patch, ...]) -> Iterator[tuple[Any, dict[str, float]]]:
+    """Yield the areas that one set of patches covers, with the constants that differ from the sheet's."""
     import shapely
 
     pieces: list[tuple[Any, dict[str, float]]] = []
     for patch in patches:
         new = patch.shape.area
         touched = shapely.intersects(new, np.array([area for area, _ in pieces], dtype=object))
-        met = [piece for piece, touches in zip(pieces, touched, strict=True) if touches]
+        cut = [piece for piece, touches in zip(pieces, touched, strict=True) if touches]
         pieces = [piece for piece, touches in zip(pieces, touched, strict=True) if not touches]
-        found = [(area.intersection(new), {**own, **patch.own}) for area, own in met]
-        found += [(area.difference(new), own) for area, own in met]
-        found.append((new.difference(shapely.union_all([area for area, _ in met])), patch.own))
-        pieces += [(area, own) for area, own in found if area.area > 0.0]
+        parts = [(area.intersection(new), {**own, **patch.own}) for area, own in cut]
+        parts += [(area.difference(new), own) for area, own in cut]
+        parts.append((new.difference(shapely.union_all([area for area, _ in cut])), patch.own))
+        pieces += [(area, own) for area, own in parts if area.area > 0.0]
     yield from pieces
 
 
@@ -148,7 +145,7 @@ def _without_rounding(share: np.ndarray) -> np.ndarray:
 
 
 def mass_of(scene: SceneFields) -> float:
-    """Mass [kg] of the sheet."""
+    """Return the mass [kg] of the sheet."""
     sheet = scene.sheet
     if scene.homogeneous:
         return float(of_sheet(scene).per_area * area_in(scene, None))
@@ -168,35 +165,35 @@ def weights(scene: SceneFields) -> tuple[PointLoad | AreaLoad, ...]:
     """Return the payloads' weight as loads, with gravity's history; none without gravity."""
     if scene.gravity is None:
         return ()
-    found: list[PointLoad | AreaLoad] = []
+    loads: list[PointLoad | AreaLoad] = []
     for payload in scene.masses:
         x, y, z = (payload.mass * np.array(scene.gravity.acceleration)).tolist()
         if payload.at is not None:
-            found.append(PointLoad(at=payload.at, force=(x, y, z), history=scene.gravity.history))
+            loads.append(PointLoad(at=payload.at, force=(x, y, z), history=scene.gravity.history))
             continue
         area = area_in(scene, payload.where)
-        spread, over = (x / area, y / area, z / area), scene.gravity.history
-        found.append(AreaLoad(force_per_area=spread, where=payload.where, history=over))
-    return tuple(found)
+        per_area, history = (x / area, y / area, z / area), scene.gravity.history
+        loads.append(AreaLoad(force_per_area=per_area, where=payload.where, history=history))
+    return tuple(loads)
 
 
 def mass_over_stiffness(scene: SceneFields) -> float:
-    """ρ/E [s²/m²] of the sheet as a whole: its mass over the integral of its membrane's stiffness E h, as
-    if a taper's thickness were the sheet's."""
+    """Return ρ/E [s²/m²] of the sheet: its mass over the integral of its membrane stiffness E h. A taper is
+    ignored: the thickness is the sheet's."""
     sheet = of_sheet(scene)
     if scene.homogeneous:
         return float(sheet.per_area / sheet.stretching)
     rest, mass, stiffness = area_in(scene, None), 0.0, 0.0
-    for area, own in _disjoint(own_patches(scene)):
+    for area, own in _disjoint_areas(own_patches(scene)):
         constants, size = sheet.arrays(()), scene.region.intersection(area).area
-        _put(constants, own)
+        _write_constants(constants, own)
         rest -= size
         mass, stiffness = mass + size * constants.per_area, stiffness + size * constants.stretching
     return float((mass + rest * sheet.per_area) / (stiffness + rest * sheet.stretching))
 
 
 def sides_of(scene: SceneFields) -> tuple[np.ndarray, np.ndarray]:
-    """x and y [m], rising, of the patches' sides along the axes, of those within the sheet's edges."""
+    """Return x and y [m], rising, of the patches' axis-parallel sides within the sheet's edges."""
     places, areas = [], [patch.shape.area for patch in own_patches(scene)]
     for axis, length in enumerate(scene.sheet.lengths):
         sides = np.unique([*straight_sides(*areas)[axis]])
@@ -211,14 +208,14 @@ def _require(by: str, known: str, scene: SceneFields, who: str, instead: str = "
         raise Impossible(f"scene '{scene.name}': {words}: {who} is for {known}{more}")
 
 
-# each raises Impossible for a scene whose sheet is another than `who`, a verb, a model or a file, knows;
-# instead: what knows it
+# each raises Impossible for a scene with a sheet that `who`, a verb, a model or a file, does not support;
+# instead: a clause on an alternative that does
 require_uniform = partial(_require, "varied_by", "isotropic sheets that are the same all over")
 require_rectangle = partial(_require, "shaped_by", "whole rectangles held at their edges")
 require_flat_at_rest = partial(_require, "natural_by", "sheets that are flat at rest")
 
 
 def require_plain(scene: SceneFields, who: str) -> None:
-    """Raise Impossible for a sheet that is no plain one (`Scene.drawn_by`), which `who` does not know."""
+    """Raise Impossible for a sheet that is not plain (`Scene.drawn_by`), in the name of `who`."""
     for require in (require_uniform, require_rectangle, require_flat_at_rest):
         require(scene, who)

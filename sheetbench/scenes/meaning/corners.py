@@ -1,15 +1,15 @@
-"""What holds or moves an edge and its corners, and whether all of it can be obeyed.
+"""Supports, motions and chains of edges and their corners, and contradictions between them.
 
-An edge has one support, one motion, or chains that agree. Where two edges meet, a support holds components of
-the corner, and one that holds the director that of the corner too; bent rods, tilted clamps and motions move
-both (`scenes.meaning.kinematics`). Two that hold the same must agree on it at every moment, for what is
-left out is not the same in every model: at the samples of both tables, and between them at two points that no
-periodic motion takes for samples. A corner that a motion agrees on belongs to the motion; a chain goes where
-its corner goes, unless its base stands there.
+An edge has one support, one motion, or chains that agree. At a common corner of two edges a support holds
+components of the corner's displacement, and perhaps its director; bent rods, tilted clamps and motions move
+both (`scenes.meaning.kinematics`). Two objects that hold one component must agree at every time, for models
+would resolve a contradiction differently. They are compared at the samples of both tables, and between them
+at two points that no periodic motion takes for samples. A corner on which a motion agrees belongs to the
+motion; a chain follows its corner, unless its base stands there.
 
-A chain does not stretch. Held along its edge at two places it could bend only if it did, and how stiff it is
-against that no scene says: lattice and references would each answer for a stiffness of their own, tens of
-percent apart. Such scenes are refused. A chain is held along itself
+A chain does not stretch. Held along its edge at two places it could bend only if it did, and a scene has no
+stiffness for that: lattice and references would use different ones, and their answers differ by tens of
+percent. A scene with a chain held at two places is refused. A chain is held along itself
 
 - where its base stands;
 - at a corner that a support on the neighbouring edge holds along the chain, unless the support moves;
@@ -38,7 +38,7 @@ from sheetbench.scenes.objects.supports import (
     tilt_axes,
 )
 
-EXACT = 1e-6  # m per metre of the longer side, and in a director: what numbers written in decimals leave
+EXACT = 1e-6  # m per metre of the longer side, and in a director: rounding of numbers written in decimals
 BETWEEN = (0.381966, 0.618034)
 
 Holder = AnySupport | EdgeMotion
@@ -49,27 +49,27 @@ Driven = Mapping[str, TurnedEdge]  # by their edges
 def conflicts(
     actuators: Sequence[AnyActuator], supports: tuple[AnySupport, ...], sheet: Sheet
 ) -> Iterator[object]:
-    """Yield what may not go together on an edge or at a corner, what is false where it may."""
+    """Yield sentences on contradictions on an edge or at a corner, or false values."""
     on_edges = [support for support in supports if place(support) is None]
     driven = {edge.edge: edge for edge in bent_or_tilted(supports, sheet)}
     for one, other in combinations(on_edges, 2):
         two = f"support: edge {one.edge} has two supports, {one.kind} and {other.kind}"
         yield one.edge == other.edge and two
-        yield _at_corner("support", one, other, driven, sheet)
+        yield _corner_conflict("support", one, other, driven, sheet)
     supported = {support.edge for support in on_edges}
     for i, actuator in enumerate(actuators):
         held = "has a support, which holds the masses that the actuator would move"
         yield actuator.edge in supported and f"actuator: edge {actuator.edge} {held}"
-        yield from (_on_one_edge(actuator, later) for later in actuators[i + 1 :])
-    yield _held_twice(actuators, supports)
+        yield from (_edge_conflict(actuator, later) for later in actuators[i + 1 :])
+    yield _doubly_held_chain(actuators, supports)
     for motion in actuators:
         if isinstance(motion, EdgeMotion):
-            for beside in (*on_edges, *(each for each in actuators if each is not motion)):
-                yield _at_corner("actuator", motion, beside, driven, sheet)
+            for holder in (*on_edges, *(each for each in actuators if each is not motion)):
+                yield _corner_conflict("actuator", motion, holder, driven, sheet)
 
 
-def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:
-    """Why two actuators cannot act on one edge, "" where they can or are on two."""
+def _edge_conflict(first: AnyActuator, second: AnyActuator) -> str:
+    """Return the reason why two actuators cannot act on one edge, "" if they can or are on two edges."""
     if first.edge != second.edge:
         return ""
     if not isinstance(first, Chain) or not isinstance(second, Chain):
@@ -84,8 +84,8 @@ def _on_one_edge(first: AnyActuator, second: AnyActuator) -> str:
     return ""
 
 
-def _at_corner(key: str, one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet) -> str:
-    """Why two cannot both be obeyed at the corner of their edges, "" where they can or have none."""
+def _corner_conflict(key: str, one: Holder, other: Holder | Chain, driven: Driven, sheet: Sheet) -> str:
+    """Return a sentence on a contradiction at the common corner of two edges, "" without one."""
     if EDGES[one.edge].normal_axis == EDGES[other.edge].normal_axis:
         return ""
     ends = sheet.edge_ends(other.edge)
@@ -97,37 +97,38 @@ def _at_corner(key: str, one: Holder, other: Holder | Chain, driven: Driven, she
     tables = [table for table in moving if table is not None]
     if not tables and driven.keys().isdisjoint((one.edge, other.edge)):
         return ""  # both at rest
-    axes, turns = ([*(a & b)] for a, b in zip(_held(one), _held(other), strict=True))
+    axes, turns = ([*(a & b)] for a, b in zip(_held_axes(one), _held_axes(other), strict=True))
     samples = sorted({time for table in tables for time in table.time}) or [0.0]
     between = [a + share * (b - a) for (a, b), share in product(pairwise(samples), BETWEEN)]
     largest, moved, turned = 0.0, "", ""
     for time in sorted([*samples, *between]):
         when = f" at t = {time:.3g} s" if tables else ""
-        (u, director), (v, normal) = (_pose(each, corner, driven, sheet, time) for each in (one, other))
+        (u, director), (v, normal) = (_prescribed(each, corner, driven, sheet, time) for each in (one, other))
         for axis in axes:
             if (gap := abs(u[axis] - v[axis])) > max(largest, EXACT * max(sheet.lengths)):
                 mover, held = (one, other) if abs(u[axis]) >= abs(v[axis]) else (other, one)
                 by = f"{'xyz'[axis]} by {gap:.3g} m{when}"
-                largest, moved = gap, f"{_named(mover)} moves the corner that {_named(held)} holds: {by}"
+                moves = f"{_holder_name(mover)} moves the corner that {_holder_name(held)} holds"
+                largest, moved = gap, f"{moves}: {by}"
         if np.abs(director - normal)[turns].max(initial=0.0) > EXACT:
             turner, held = (one, other) if director[2] <= normal[2] else (other, one)
-            where = f"the corner where {_named(held)} holds it otherwise"
-            turned = f"{_named(turner)} turns the director at {where}{when}"
+            where = f"the corner where {_holder_name(held)} holds it otherwise"
+            turned = f"{_holder_name(turner)} turns the director at {where}{when}"
     return (moved and f"{key}: {moved}") or (turned and f"{key}: {turned}")
 
 
-def _held(holder: Holder) -> tuple[set[int], set[int]]:
-    """Axes of position and of director that are held at the corners."""
+def _held_axes(holder: Holder) -> tuple[set[int], set[int]]:
+    """Return the axes of position and of director that are held at the corners."""
     every = {0, 1, 2}
     if isinstance(holder, EdgeMotion):
         return every, every
     return set(held_axes(holder)), set(tilt_axes(holder))
 
 
-def _pose(
+def _prescribed(
     holder: Holder, corner: PlanPoint, driven: Driven, sheet: Sheet, time: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Displacement [m] and director (3,) that are given to the corner."""
+    """Return the displacement [m] and the director (3,) that are prescribed at the corner."""
     point, shift = np.array([corner]), np.zeros(3)
     if isinstance(holder, EdgeMotion):
         placed = MovedEdge(holder, sheet).placed(point, time=time)
@@ -139,7 +140,7 @@ def _pose(
     return placed.displacement[0] + shift, UP + np.atleast_2d(placed.director)[0]
 
 
-def _named(holder: Holder) -> str:
+def _holder_name(holder: Holder) -> str:
     if isinstance(holder, EdgeMotion):
         return f"the motion on edge {holder.edge}"
     if isinstance(holder, Curved) and holder.curvature:
@@ -149,14 +150,14 @@ def _named(holder: Holder) -> str:
     return f"the {holder.kind} support on edge {holder.edge}"
 
 
-def _held_twice(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]) -> str:
-    """Which chain is held along itself at two places, and what to change; "" for none."""
+def _doubly_held_chain(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]) -> str:
+    """Return a sentence on a chain that is held along itself at two places, with a remedy; "" for none."""
     chains = {str(chain.edge): chain for chain in actuators if isinstance(chain, Chain)}
     fixed = {name: support for name, support in named(supports).items() if support.motion is None}
     for number, chain in enumerate(actuators, start=1):
         if not isinstance(chain, Chain):
             continue
-        places = {end: holder for end in (0, 1) if (holder := _holder(chain, end, chains, fixed))}
+        places = {end: holder for end in (0, 1) if (holder := _end_holder(chain, end, chains, fixed))}
         if chain.base != "free":
             places[{"start": 0, "middle": -1, "end": 1}[chain.base]] = f'by its own base = "{chain.base}"'
         if len(places) > 1:
@@ -171,8 +172,9 @@ def _held_twice(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]
     return ""
 
 
-def _holder(chain: Chain, end: int, chains: Mapping[str, Chain], fixed: Mapping[str, AnySupport]) -> str:
-    """What holds an end (0 or 1) of a chain along the chain, other than its own base; "" where nothing."""
+def _end_holder(chain: Chain, end: int, chains: Mapping[str, Chain], fixed: Mapping[str, AnySupport]) -> str:
+    """Return a clause on the object that holds an end (0 or 1) of a chain along the chain, "" for none. The
+    chain's own base is ignored."""
     along = EDGES[chain.edge].along_axis
     edge = f"{'xy'[along]}{end}"
     if edge in fixed and along in held_axes(fixed[edge]):

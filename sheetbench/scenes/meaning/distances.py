@@ -1,12 +1,12 @@
-"""Distances from the obstacles of a scene: their gradients, whether a way leads through, and what of the flat
-sheet's refuses or describes a scene.
+"""Distances from the obstacles of a scene, their gradients, ways through them, and gaps of the flat sheet.
 
-With y the position of a point less the obstacle's, across its axis if it has one, and P the projector there,
+The distance φ is, with y the position of a point less the obstacle's, across its axis if it has one, and P
+the projector across it,
 
     plane               φ = y·n,      n = ∇φ,     ∇n = 0
     sphere, cylinder    φ = |y| − R,  n = y/|y|
 
-Where a point touches, at φ = o, a ball's |y| is ρ = R + o. What a penalty takes for the depth o − φ is there
+A ball's |y| is ρ = R + o at a point that touches, φ = o. A penalty takes for the depth o − φ
 
     δ = (ρ² − |y|²)/2ρ,   ∂δ/∂x = −y/ρ,   ∂²δ/∂x² = −P/ρ;     on a plane  δ = o − φ,   ∂δ/∂x = −n
 
@@ -88,8 +88,8 @@ def projector(obstacle: AnyObstacle) -> np.ndarray:
 
 
 def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]) -> Near:
-    """Return the places beside an obstacle of points x (…, 3) [m] that touch at a distance, the offset (…)
-    [m]."""
+    """Return the position relative to an obstacle, in its `place`, of points x (…, 3) [m] that touch at a
+    distance, the offset (…) [m]."""
     y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
         normal, depth = np.broadcast_to(obstacle.direction, y.shape), offset - y @ obstacle.direction

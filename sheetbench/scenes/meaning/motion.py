@@ -1,9 +1,8 @@
-"""What a scene's words mean for a motion: where it starts, what is let go then, when something changes its
-course.
+"""Start of a motion, loads that are let go, and times at which something prescribed changes its course.
 
-A motion starts at rest. Unless `[initial]` says otherwise nothing but the supports has acted on the sheet: it
-is flat, or as bent and tilted supports shape it. With `shape = "static"` it is in the equilibrium under all
-that acts at t = 0, and the loads with `hold = true` are let go then.
+A motion starts at rest. Without `[initial]` nothing but the supports has acted on the sheet: it is flat, or
+shaped by bent and tilted supports. It starts with `shape = "static"` in the equilibrium under all loads at
+t = 0, and the loads with `hold = true` are let go at that time.
 """
 
 from __future__ import annotations
@@ -23,8 +22,8 @@ NO_START = "the motion would start from no stable equilibrium"
 
 
 def kinks(scene: SceneFields) -> list[float]:
-    """The times [s] at which a history, a command or a motion has a sample, increasing: between them all that
-    is prescribed is smooth."""
+    """Return the times [s], rising, of the samples of histories, commands and motions. All prescribed values
+    are smooth between the times."""
     tables: list[OverTime | None] = [
         one.history for one in (scene.gravity, *scene.loads, *scene.natural_states.values()) if one
     ]
@@ -35,45 +34,45 @@ def kinks(scene: SceneFields) -> list[float]:
 
 
 def let_go(scene: AScene) -> AScene:
-    """The scene without the loads that hold the sheet until the motion starts."""
+    """Return the scene without the loads that hold the sheet until the motion starts."""
     return scene.replace(loads=tuple(load for load in scene.loads if not load.hold))
 
 
 def starts_flat(scene: SceneFields) -> bool:
-    """Whether no equilibrium has to be found for the start."""
+    """Return whether a motion starts from the flat sheet, without a computed equilibrium."""
     return scene.initial is None and not bent_or_tilted(scene.supports, scene.sheet)
 
 
 def at_start(scene: AScene) -> AScene:
-    """The statics in whose equilibrium a motion starts: supports and moved edges where they are at t = 0;
-    with `[initial]` loads, commands and natural states as they are then, else none."""
+    """Return the static scene in whose equilibrium a motion starts, with supports and moved edges at t = 0.
+    It has the loads, commands and natural states of t = 0 if the scene has `[initial]`, else none."""
     static = scene.initial is not None
     return scene.replace(
         initial=None,
-        gravity=scene.gravity and _now(scene.gravity) if static else None,
-        natural=_state_now(scene.natural, static),
-        temperature=_state_now(scene.temperature, static),
-        patches=tuple(one.replace(natural=_state_now(one.natural, static)) for one in scene.patches),
-        loads=tuple(_now(load).replace(hold=False) for load in scene.loads) if static else (),
-        supports=tuple(_placed(support) for support in scene.supports),
-        obstacles=tuple(_placed(one).replace(friction=0.0) for one in scene.obstacles),
-        actuators=tuple(_commanded(one, static) for one in scene.actuators),
+        gravity=scene.gravity and _load_at_start(scene.gravity) if static else None,
+        natural=_state_at_start(scene.natural, static),
+        temperature=_state_at_start(scene.temperature, static),
+        patches=tuple(one.replace(natural=_state_at_start(one.natural, static)) for one in scene.patches),
+        loads=tuple(_load_at_start(load).replace(hold=False) for load in scene.loads) if static else (),
+        supports=tuple(_support_at_start(support) for support in scene.supports),
+        obstacles=tuple(_support_at_start(one).replace(friction=0.0) for one in scene.obstacles),
+        actuators=tuple(_actuator_at_start(one, static) for one in scene.actuators),
     )
 
 
-def _now(load: Loaded) -> Loaded:
+def _load_at_start(load: Loaded) -> Loaded:
     return load.replace(history=load.history.still()) if load.history else load
 
 
-def _state_now(state: Loaded | None, static: bool) -> Loaded | None:
-    return state and (_now(state) if static else type(state)())
+def _state_at_start(state: Loaded | None, static: bool) -> Loaded | None:
+    return state and (_load_at_start(state) if static else type(state)())
 
 
-def _placed(held: Held) -> Held:
+def _support_at_start(held: Held) -> Held:
     return held.replace(motion=held.motion.still()) if held.motion else held  # type: ignore[return-value]
 
 
-def _commanded(actuator: Chain | EdgeMotion, static: bool) -> Chain | EdgeMotion:
+def _actuator_at_start(actuator: Chain | EdgeMotion, static: bool) -> Chain | EdgeMotion:
     if isinstance(actuator, EdgeMotion):
         return actuator.still()
     bent = actuator.curvature if static else 0.0

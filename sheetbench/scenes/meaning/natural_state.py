@@ -1,5 +1,8 @@
-"""The natural strain and curvature of a scene's sheet at points or of cells: of [natural], of patches with
-their own, which win where they are, and of [temperature]; each with its history."""
+"""Natural strain and curvature of a scene's sheet, at points or of cells, over time.
+
+Their sources are [natural], patches with a natural state of their own in place of the sheet's, and
+[temperature]; each has its history.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +28,8 @@ TENSOR = np.array([1.0, 1.0, 0.5])  # components over (xx, yy, 2xy)
 
 
 class Source(NamedTuple):
-    """strain, curvature: (3,), xx, yy, xy [-], [1/m]; where: the part of the plan that has them or, if not
-    `within`, has not; None for all of it."""
+    """A source of natural strain [-] and curvature [1/m], (3,) each: xx, yy, xy. where: the part of the plan
+    inside which (`within`) or outside which they hold, or None: the whole plan."""
 
     name: str
     of: Natural | Temperature
@@ -37,11 +40,11 @@ class Source(NamedTuple):
 
 
 class NaturalState:
-    """Natural strains and curvatures (…, 2, 2) at points or of cells, or what a model makes of both (`made`),
-    as a function of the load's share and the time; the last value is kept."""
+    """Natural strains and curvatures (…, 2, 2) at points or of cells, or a model's function of both (`made`).
+    They depend on the load's share and the time; the last value is cached."""
 
     def __init__(self, sources: list[Source], shape: tuple[int, ...], share: Callable[[Polygon], np.ndarray]):
-        """shape: of the points or cells; share: of each of them that a part of the plan has."""
+        """Add up sources on points or cells of a shape; share: a plan part's share of each of them."""
         self._courses = [source.of.course for source in sources]
         self.moves = any(source.of.history is not None for source in sources)
         self._forms = np.array([(s.strain, s.curvature) for s in sources])[..., [[0, 2], [2, 1]]]
@@ -54,32 +57,32 @@ class NaturalState:
 
     @classmethod
     def given(cls, fields: np.ndarray) -> Self:
-        """Return the state of a strain and a curvature of every cell, (rows, columns, 6), xx, yy and xy."""
+        """Return the state with a given strain and curvature of every cell, (rows, columns, 6)."""
         units, shape = np.eye(6).reshape(6, 2, 3), fields.shape[:-1]
         state = cls([Source("cells", Natural(), *u) for u in units], shape, lambda _: np.ones(shape))
         state._weights = np.moveaxis(fields, -1, 0)
         return state
 
     def made(self, make: Callable[[np.ndarray, np.ndarray], Any]) -> Self:
-        """Return the state as what this makes of strains and curvatures."""
+        """Return the state whose values are a function of strains and curvatures."""
         other = copy(self)
         other._make, other._kept = make, None
         return other
 
     def factors(self, time: float | None = None) -> np.ndarray:
-        """Return the factor of every source at a time [s], without one the last."""
+        """Return the factor of every source at a time [s], the last without a time."""
         return np.array([course.at(time) for course in self._courses])
 
     def rates(self, time: float, before: bool) -> np.ndarray:
-        """Return their derivatives [1/s] from a time on, or until then."""
+        """Return the derivatives [1/s] of the factors just after a time [s], or just before."""
         return np.array([course.slope(time, before) for course in self._courses])
 
     def at(self, share: float = 1.0, time: float | None = None) -> Any:
-        """Return a share of the natural state at a time [s], without one the last."""
+        """Return a share of the natural state at a time [s], the last without a time."""
         return self.of(share * self.factors(time))
 
     def of(self, factors: np.ndarray) -> Any:
-        """Return so many times what each source has."""
+        """Return the natural state with a factor for each source."""
         kept = self._kept
         if kept is None or not np.array_equal(factors, kept[0]):
             both = np.einsum("s,s...,skij->k...ij", factors, self._weights, self._forms)
@@ -88,7 +91,7 @@ class NaturalState:
 
 
 def natural_at(scene: SceneFields, points: np.ndarray) -> NaturalState | None:
-    """Return the state at plan points (…, 2) [m], None of a sheet that is flat at rest."""
+    """Return the state at plan points (…, 2) [m], None for a sheet that is flat at rest."""
 
     def share(area: Polygon) -> np.ndarray:
         import shapely
@@ -100,29 +103,31 @@ def natural_at(scene: SceneFields, points: np.ndarray) -> NaturalState | None:
 
 
 def natural_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> NaturalState | None:
-    """Return the state of the cells between lines at x and at y [m], (rows, columns): a cell that several
-    parts share has their mean; None of a sheet that is flat at rest."""
+    """Return the state of the cells (rows, columns) between lines at x and at y [m]. A cell that several
+    parts share has their mean. Return None for a sheet that is flat at rest."""
     sources, shape = list(sources_of(scene)), (len(y) - 1, len(x) - 1)
     return NaturalState(sources, shape, lambda area: shares_of(area, x, y)) if sources else None
 
 
 def sources_of(scene: SceneFields) -> Iterator[Source]:
-    """Yield what makes a scene's sheet other than flat at rest."""
+    """Yield the sources of natural strain and curvature in a scene."""
     taken: Polygon | None = None
     for n, patch in reversed([*enumerate(scene.patches, start=1)]):
         if patch.natural is not None:
             area = patch.shape.area if taken is None else patch.shape.area.difference(taken)
-            yield Source(f"patch {n}", patch.natural, *_own(scene, patch.natural), area)
+            yield Source(f"patch {n}", patch.natural, *_strain_and_curvature(scene, patch.natural), area)
             taken = area if taken is None else taken.union(area)
     if scene.natural is not None:
-        yield Source("natural", scene.natural, *_own(scene, scene.natural), taken, within=False)
+        yield Source(
+            "natural", scene.natural, *_strain_and_curvature(scene, scene.natural), taken, within=False
+        )
     if scene.temperature is not None:
         yield Source("temperature", scene.temperature, *thermal(scene, scene.temperature))
 
 
 def growth_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
-    """Return how many times as long and as wide cells are at rest, (rows, columns, 2); None where all are
-    alike (`sheet_at_rest`)."""
+    """Return the factors of the cells' sides at rest, (rows, columns, 2), None if they are uniform. The sides
+    of a sheet with uniform growth are in `sheet_at_rest`."""
     parts = any(patch.natural is not None for patch in scene.patches)
     if not parts or (state := natural_of_cells(scene, x, y)) is None or not state.at()[0].any():
         return None
@@ -130,8 +135,8 @@ def growth_of_cells(scene: SceneFields, x: np.ndarray, y: np.ndarray) -> np.ndar
 
 
 def sheet_at_rest(scene: SceneFields) -> Sheet:
-    """Return the sheet as long and as wide as it is where nothing holds it, which its stiffness is that of,
-    if it has grown alike all over (else `growth_of_cells`); a mesh keeps its size."""
+    """Return the sheet with the sides of the free sheet, to which its stiffness refers. Growth that is not
+    uniform is left to `growth_of_cells`; a mesh keeps its size."""
     sources = list(sources_of(scene))
     if scene.sheet.mesh is not None or any(source.where is not None for source in sources):
         return scene.sheet
@@ -142,11 +147,13 @@ def sheet_at_rest(scene: SceneFields) -> Sheet:
 
 
 def held_at_drawn_size(scene: AnyFields, tension: Callable[[np.ndarray], np.ndarray]) -> AnyFields:
-    """Return the scene with, in place of its pretension, the natural strain with which a sheet held where it
-    is drawn has it by a model's own law, at the last factor of a history.
+    """Return the scene with a natural strain in place of its pretension, by a model's law.
 
-    tension: natural strain [xx, yy, xy] → [Nx, Ny, Nxy] [N/m] of the flat sheet so held. Raises Impossible
-    where no strain gives it. Newton's method with the linear law's tangent, by Broyden's updates."""
+    The flat sheet, held at its drawn size, has the pretension at the last factor of its history. tension: the
+    model's forces per length [Nx, Ny, Nxy] [N/m] of the held flat sheet as a function of its natural strain
+    [xx, yy, xy]. Raises Impossible if no strain gives the pretension. Method: Newton's with the linear law's
+    tangent, by Broyden's updates.
+    """
     natural = scene.natural
     if natural is None or natural.pretension is None:
         return scene
@@ -156,18 +163,18 @@ def held_at_drawn_size(scene: AnyFields, tension: Callable[[np.ndarray], np.ndar
     compliance = -np.linalg.inv(resultants(plies_of(scene))[0] * scene.sheet.thickness) * TENSOR[:, None]
     begin = factor * compliance @ [*natural.pretension, 0.0]
 
-    def left(strain: np.ndarray) -> np.ndarray:
+    def residual(strain: np.ndarray) -> np.ndarray:
         return np.asarray(compliance @ tension(strain) - begin)
 
-    found = root(left, begin, jac=lambda _: np.eye(3), options={"xtol": 1e-15})
-    if not np.abs(left(found.x)).max() <= 1e-9 * np.abs(begin).max():
+    solved = root(residual, begin, jac=lambda _: np.eye(3), options={"xtol": 1e-15})
+    if not np.abs(residual(solved.x)).max() <= 1e-9 * np.abs(begin).max():
         pull = ", ".join(f"{force:g}" for force in natural.pretension)
         raise Impossible(f"natural.pretension = [{pull}]: no natural strain gives it by this model's law")
-    xx, yy, xy = (found.x / factor).tolist()
+    xx, yy, xy = (solved.x / factor).tolist()
     return scene.replace(natural=natural.replace(pretension=None, strain=(xx, yy, xy)))
 
 
-def _own(scene: SceneFields, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
+def _strain_and_curvature(scene: SceneFields, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
     strain, curvature = np.array(natural.strain), np.array(natural.curvature)
     if natural.pretension is not None:
         stiffness = resultants(plies_of(scene))[0] * scene.sheet.thickness
@@ -176,7 +183,7 @@ def _own(scene: SceneFields, natural: Natural) -> tuple[np.ndarray, np.ndarray]:
 
 
 def plies_of(scene: SceneFields) -> tuple[Ply, ...]:
-    """Return the plies of a scene's sheet, or the one that all of it is."""
+    """Return the plies of a scene's sheet, one for a sheet without layers."""
     return of_sheet(scene).plies or (scene.material.ply,)
 
 
@@ -190,11 +197,11 @@ def expansion_of(scene: SceneFields, number: int) -> np.ndarray:
 
 
 def thermal(scene: SceneFields, temperature: Temperature) -> tuple[np.ndarray, np.ndarray]:
-    """Return natural strain and curvature (3,) of a temperature, all over the sheet."""
-    h, found, (a, b, d) = scene.sheet.thickness, plies_of(scene), resultants(plies_of(scene))
-    pulls = [plane_stress(ply) @ expansion_of(scene, number) for number, ply in enumerate(found)]
-    one, two, three = moments(found, pulls)
+    """Return the natural strain and curvature (3,) of a temperature, constant over the sheet."""
+    h, plies, (a, b, d) = scene.sheet.thickness, plies_of(scene), resultants(plies_of(scene))
+    stresses = [plane_stress(ply) @ expansion_of(scene, number) for number, ply in enumerate(plies)]
+    zeroth, first, second = moments(plies, stresses)
     change, rise = temperature.change, temperature.gradient * h
-    stress = np.concatenate([change * one + rise * two, change * two + rise * three])
+    stress = np.concatenate([change * zeroth + rise * first, change * first + rise * second])
     strain, curvature = np.linalg.solve(np.block([[a, -b], [b, -d]]), stress).reshape(2, 3) * TENSOR
     return strain, curvature / h

@@ -1,4 +1,4 @@
-"""The parameters of a scene by name: where each sits, its unit and what it may be.
+"""The parameters of a scene by name: the place of each in the scene, its unit and its bounds.
 
 young, poisson, density, damping_time, damping_rate   of the material
 young_1, young_2, poisson_12, shear_12, angle, …      of a material with fibres; young scales all its moduli
@@ -43,7 +43,7 @@ FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23"
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
 NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY", "gravity.z", "loadN.KEY"]
 NAMES += ["supportN.z", "actuatorN.KEY"]
-PLACES = {  # by patterns of names, but for those of an edge; a number counts from 1
+PLACES = {  # by patterns of names, without edges' parameters; numbers count from 1
     "|".join((*MATERIAL, *FIBRES, *OF_LAWS)): r"material.\g<0>",
     "thickness": "sheet.thickness",
     "drag": "air.drag",
@@ -69,7 +69,7 @@ PLACES = {  # by patterns of names, but for those of an edge; a number counts fr
     r"actuator(\d+)\.bending_stiffness": r"actuators.\1.bending_stiffness",
 }
 COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "yy": 1, "xy": 2, "last": -1}
-UNITS = {  # none of other keys
+UNITS = {  # other keys have none
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
     **{"density": "kg/m³", "thickness": "m", "curvature": "1/m", "angle": "rad", "tilt": "rad"},
     **{"damping_time": "s", "damping_rate": "1/s", "time": "s", "mass": "kg"},
@@ -91,7 +91,7 @@ Path = tuple[str | int, ...]  # keys, and numbers in lists
 
 
 class Parameter(NamedTuple):
-    """A number of a scene: its name, unit and value (SI), and the bounds within which it makes sense."""
+    """A number of a scene: its name, unit and value (SI), and the bounds of possible values."""
 
     name: str
     unit: str
@@ -100,8 +100,13 @@ class Parameter(NamedTuple):
     high: float
 
 
+def short_name(name: str) -> str:
+    """Return a parameter's name without its table: "material.young" is young."""
+    return name.removeprefix("material.").removeprefix("sheet.")
+
+
 def parameter(scene: SceneFields, name: str) -> Parameter:
-    """Return the parameter of this name. Raises BadInput where the scene has none."""
+    """Return the parameter of this name. Raises BadInput if the scene has none."""
     path = _paths(scene, name)[0]
     key = [part for part in path if isinstance(part, str)][-1]
     low, high = BOUNDS.get(key, (0.0, inf))
@@ -119,12 +124,12 @@ def names_of(scene: SceneFields) -> list[str]:
     joints = [getattr(one, "segments", 0) for one in scene.actuators]
     most = max(*map(len, lists), len(scene.material.relaxation), *joints, 1)
     ends = [f"{key}_{edge}" for key in ("curvature", "tilt") for edge in EDGES]
-    found = []
+    names = []
     for name in (*(name for pattern in PLACES for name in _expanded(pattern, most)), *ends):
         with suppress(BadInput, TypeError):
             if isfinite(parameter(scene, name).value):  # a plane's radius is not
-                found.append(name)
-    return found
+                names.append(name)
+    return names
 
 
 def _expanded(pattern: str, most: int) -> Iterator[str]:
@@ -139,8 +144,8 @@ def _expanded(pattern: str, most: int) -> Iterator[str]:
 
 
 def put(scene: AScene, name: str, value: float) -> AScene:
-    """Return the scene with a parameter at another value. Raises BadInput where it has none of this name, and
-    SceneError where the value cannot be."""
+    """Return the scene with a parameter at another value. Raises BadInput if the scene has no parameter of
+    this name, and SceneError if the value is impossible."""
     paths = _paths(scene, name)
     try:
         if name == "thickness":
@@ -151,7 +156,7 @@ def put(scene: AScene, name: str, value: float) -> AScene:
 
 
 def _paths(scene: SceneFields, name: str) -> list[Path]:
-    """Return the places in a scene that a parameter's value is at. Raises BadInput where there are none."""
+    """Return the paths in a scene to a parameter's value. Raises BadInput if there are none."""
     paths = _places(scene, name)
     for path in paths:
         of: Any = scene
@@ -160,7 +165,7 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
                 raise BadInput(f"'{name}': the scene has {len(of)} {path[n - 1]}")
             pulled = part == "strain" and of.pretension is not None
             of = of[part] if isinstance(part, int) else getattr(of, part, None)
-            fibres = scene.material.kind == "orthotropic"  # of which the angle is 0 unless given
+            fibres = scene.material.kind == "orthotropic"  # its angle is 0 unless given
             derived = pulled or (name == "poisson" and fibres)
             if derived or (of is None and not (part == "angle" and fibres)):
                 where = in_keys(path[: n + 1])
@@ -169,7 +174,7 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
 
 
 def _places(scene: SceneFields, name: str) -> list[Path]:
-    """Return the places that a name may stand for. Raises BadInput where it stands for none."""
+    """Return the paths that a name may stand for. Raises BadInput if it stands for none."""
     for pattern, place in PLACES.items():
         if at := re.fullmatch(pattern, name):
             parts = at.expand(place).split(".")
@@ -213,7 +218,7 @@ def _replaced(of: Any, path: Path, value: Any) -> Any:
 
 
 def _with_thickness(scene: AScene, factor: float) -> AScene:
-    """Return the scene with its sheet so many times as thick, tapers and layers too."""
+    """Return the scene with the thickness of its sheet, tapers and layers times a factor."""
     sheet = scene.sheet
     given = sheet.given(("taper_x", "taper_y"))
     tapers = {key: tuple(factor * h for h in ends) for key, ends in given.items()}

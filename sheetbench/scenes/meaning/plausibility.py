@@ -1,10 +1,9 @@
-"""Slips that no rule forbids: numbers that are fine in SI units and hardly meant, nearly always a unit.
+"""Slips that no rule forbids: numbers that are valid in SI units but implausible, nearly always by a unit.
 
-Each is reported in a sentence that names the key, the value, the unit and how the likely quantity is written.
-Hardly meant are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a
-thickness over a quarter of the shorter side, a gravity other than the Earth's, and layers of springs much
-nearer to or farther from each other than the sheet is thick; then a weight or loads that would tear the
-sheet, and a sheet that nothing moves.
+A sentence for each names the key, the value, the unit and the spelling of the likely quantity. Implausible
+are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a thickness over a
+quarter of the shorter side, a gravity other than the Earth's, and a distance of the springs' layers far from
+the thickness; then a weight or loads that would tear the sheet, and a sheet that nothing moves.
 """
 
 from __future__ import annotations
@@ -34,15 +33,15 @@ BURDEN = 100.0  # a payload's mass over the sheet's
 
 
 def slips(scene: SceneFields) -> tuple[str, ...]:
-    """Sentences about what was hardly meant; for most scenes none."""
+    """Return sentences about a scene's implausible values, none for most scenes."""
     sheet, springs = scene.sheet, scene.springs
-    warnings = [*sheet_slips(sheet), *material_slips(scene.material), *_gravity(scene.gravity)]
-    warnings += _payloads(scene)
+    warnings = [*sheet_slips(sheet), *material_slips(scene.material), *_gravity_slips(scene.gravity)]
+    warnings += _payload_slips(scene)
     if springs is not None:
         warnings += layer_slips(sheet, springs.layer_distance, "springs.layer_distance")
-    if not warnings:  # else that may be why
-        warnings = [*_strains(scene)]
-    if _unmoved(scene):
+    if not warnings:  # else they may be the reason
+        warnings = [*_strain_slips(scene)]
+    if _nothing_moves(scene):
         warnings.append(
             "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
         )
@@ -50,15 +49,15 @@ def slips(scene: SceneFields) -> tuple[str, ...]:
 
 
 def warn_of_slips(scenes: Iterable[tuple[str, SceneFields]], stacklevel: int) -> None:
-    """Warn (Implausible) of the slips of scenes under the names given, of each scene once."""
+    """Warn (Implausible) of the slips of scenes, with the scenes' names, once for each scene."""
     for name, scene in scenes:
         for slip in () if "_warned" in vars(scene) else slips(scene):
             warn(Implausible(f"{name}: {slip}"), stacklevel=stacklevel + 1)
-        vars(scene)["_warned"] = True  # no key of the scene: equal ones stay equal
+        vars(scene)["_warned"] = True  # no key of the scene: equal scenes stay equal
 
 
 def sheet_slips(sheet: Sheet) -> Iterator[str]:
-    """Yield lengths that are not in metres."""
+    """Yield sentences on lengths that are probably not in metres."""
     side, shorter, keys = max(sheet.lengths), min(sheet.lengths), ("length_x", "length_y", "thickness")
     if side > LARGEST:
         written = ", ".join(f"{key} = {getattr(sheet, key):g} m" for key in keys)
@@ -71,7 +70,7 @@ def sheet_slips(sheet: Sheet) -> Iterator[str]:
 
 
 def material_slips(material: Material) -> Iterator[str]:
-    """Yield a modulus that is not in pascals, a density that is not in kilograms a cubic metre."""
+    """Yield sentences on moduli and densities that are probably not in Pa and kg/m³."""
     for key in ("young",) if material.kind == "isotropic" else ("young_1", "young_2"):
         young = getattr(material, key)
         if young < SOFTEST:
@@ -92,8 +91,8 @@ def material_slips(material: Material) -> Iterator[str]:
         yield f"density = {density:g} kg/m³ is heavier than any metal; water's is 1000 kg/m³"
 
 
-def _payloads(scene: SceneFields) -> list[str]:
-    """Payloads that are not in kilograms."""
+def _payload_slips(scene: SceneFields) -> list[str]:
+    """Return sentences on payloads that are probably not in kilograms."""
     heaviest = BURDEN * mass_of(scene) if scene.masses else 0.0
     return [
         f"mass {n}.mass = {payload.mass:g} kg is {few(payload.mass * BURDEN / heaviest)} of the sheet's; "
@@ -104,16 +103,15 @@ def _payloads(scene: SceneFields) -> list[str]:
 
 
 def layer_slips(sheet: Sheet, distance: float, key: str = "layer_distance") -> Iterator[str]:
-    """Yield a distance of neighbouring layers [m] far from the sheet's thickness; `key` is how it was
-    given."""
+    """Yield a sentence on a distance of layers [m] far from the thickness; key: the name of the distance."""
     ratio = distance / sheet.thickness
     if not 1.0 / LAYERS <= ratio <= LAYERS:
         times = f"{few(ratio, 3)} times the thickness, {sheet.thickness:g} m"
         yield f"{key} = {distance:g} m is {times}; lengths are in metres"
 
 
-def _strains(scene: SceneFields) -> Iterator[str]:
-    """Yield a weight or loads that would tear the sheet."""
+def _strain_slips(scene: SceneFields) -> Iterator[str]:
+    """Yield sentences on a weight or loads that would tear the sheet."""
     sheet, young, law = scene.sheet, scene.material.young, scene.material.law
     heaviest, strongest = (WEIGHT_LIMIT, STRETCH_LIMIT) if law is None else (RUBBER, RUBBER)
     if (weight := weight_strain(scene)) > heaviest:
@@ -131,7 +129,7 @@ def _strains(scene: SceneFields) -> Iterator[str]:
         )
 
 
-def _gravity(gravity: Gravity | None) -> Iterator[str]:
+def _gravity_slips(gravity: Gravity | None) -> Iterator[str]:
     size = hypot(*gravity.acceleration) if gravity else 0.0
     if gravity and size and not EARTH[0] <= size <= EARTH[1]:
         likely = f": {size:g} mm/s² is written {size / 1e3:g}" if EARTH[0] <= size / 1e3 <= EARTH[1] else ""
@@ -141,8 +139,8 @@ def _gravity(gravity: Gravity | None) -> Iterator[str]:
         )
 
 
-def _unmoved(scene: SceneFields) -> bool:
-    """Whether nothing whatever moves the sheet; its modes are all there is to ask for."""
+def _nothing_moves(scene: SceneFields) -> bool:
+    """Return whether nothing moves the sheet, so that only its modes are of interest."""
     weight = scene.gravity is not None and any(scene.gravity.acceleration)
     held = (*scene.supports, *scene.obstacles)
     bent = any(getattr(one, key, None) for one in held for key in ("tilt", "curvature", "motion"))

@@ -1,4 +1,4 @@
-"""Parts of a scene's plan: lengths, areas and resultants there, and what lies where there is no sheet."""
+"""Parts of a scene's plan: their lengths, areas and resultants, and faults of parts outside the sheet."""
 
 from __future__ import annotations
 
@@ -18,8 +18,7 @@ from sheetbench.scenes.objects.supports import AnySupport, Point, named, place
 
 
 def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> list[tuple[float, float]]:
-    """From where to where along an edge [m] the sheet reaches it: the sides of the plan on that line, or the
-    part of them in a shape."""
+    """Return the intervals [m] along an edge where the sheet reaches it, or their parts in a shape."""
     (normal, along, _), at = EDGES[edge], scene.sheet.edge_at(edge)
     spans = []
     for ring in (scene.region.exterior, *scene.region.interiors):
@@ -38,8 +37,8 @@ def edge_parts(scene: SceneFields, edge: str, where: Shape | None = None) -> lis
 
 
 def sides_of_shapes(scene: SceneFields) -> Places:
-    """x and y [m], rising, of the sides along the axes of the rim and of shapes that hold or load the sheet,
-    and of the ends of its sides at the edges; those within the edges."""
+    """Return x and y [m], rising, within the edges, of axis-parallel sides of the rim and of shapes. The
+    shapes hold or load the sheet. Ends of the rim's sides on the edges, and held points, are included."""
     shapes = [place(support) for support in scene.supports if not isinstance(support, Point)]
     shapes += [getattr(acting, "where", None) for acting in (*scene.loads, *scene.masses)]
     rims = [scene.region] if scene.pierced else []
@@ -56,22 +55,22 @@ def sides_of_shapes(scene: SceneFields) -> Places:
 
 
 def edge_length(scene: SceneFields, edge: str, where: Shape | None = None) -> float:
-    """Length [m] of the part of an edge that the sheet reaches; where: of that in a shape."""
+    """Return the length [m] of the part of an edge that the sheet reaches, or of its part in a shape."""
     if where is None and not scene.pierced:
         return scene.sheet.lengths[EDGES[edge].along_axis]
     return sum(stop - start for start, stop in edge_parts(scene, edge, where))
 
 
 def area_in(scene: SceneFields, shape: Shape | None) -> float:
-    """Area [m²] of the sheet in a shape, or of all of it."""
+    """Return the area [m²] of the sheet, or of its part in a shape."""
     if not scene.pierced and shape is None:
         return scene.sheet.length_x * scene.sheet.length_y
     return float((scene.region if shape is None else common(scene.region, shape.area)).area)
 
 
 def resultant(scene: SceneFields, load: AnyLoad, length: float | None = None) -> np.ndarray:
-    """The force (3,) [N] of a load in full, a pressure's on the flat sheet; length: of its edge [m] as a
-    model has it."""
+    """Return the force (3,) [N] of a load in full, for a pressure on the flat sheet. length: of the load's
+    edge [m] in a model, which may differ from the scene's."""
     if isinstance(load, PointLoad):
         return np.array(load.force)
     if isinstance(load, EdgeLoad):
@@ -83,7 +82,7 @@ def resultant(scene: SceneFields, load: AnyLoad, length: float | None = None) ->
 
 
 def marked(scene: SceneFields) -> dict[str, PlanPoint]:
-    """Plan points [m] of probes, point loads, payloads and held points, by their keys."""
+    """Return the plan points [m] of probes, point loads, payloads and held points, by their keys."""
     loads = {f"load {n}.at": each.at for n, each in enumerate(scene.loads, 1) if isinstance(each, PointLoad)}
     payloads = {f"mass {n}.at": each.at for n, each in enumerate(scene.masses, 1) if each.at is not None}
     pins = {f"{name}.at": s.at for name, s in named(scene.supports).items() if isinstance(s, Point)}
@@ -91,7 +90,7 @@ def marked(scene: SceneFields) -> dict[str, PlanPoint]:
 
 
 def share_of(scene: SceneFields, corners: np.ndarray) -> np.ndarray:
-    """What share of quadrilaterals with corners (n, 4, 2) [m] is on the sheet, (n,); 1 of other cells."""
+    """Return the share on the sheet (n,) of quadrilaterals with corners (n, 4, 2) [m]; 1 for other cells."""
     import shapely
 
     if corners.shape[1] != 4:
@@ -101,7 +100,7 @@ def share_of(scene: SceneFields, corners: np.ndarray) -> np.ndarray:
 
 
 def off_sheet(scene: SceneFields, point: PlanPoint) -> bool:
-    """Whether there is no sheet at a plan point [m]."""
+    """Return whether a plan point [m] lies outside the sheet."""
     from shapely import Point
 
     return bool(scene.region.distance(Point(point)) > COINCIDENT * max(scene.sheet.lengths))
@@ -116,30 +115,30 @@ def nearest_on_sheet(scene: SceneFields, points: np.ndarray) -> np.ndarray:
 
 
 def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
-    """Return the supports with shapes, or the edges of a whole rectangle, for what is said of rims. Raises
-    ValueError for a hole that is not there, and for a rim of what is no support."""
+    """Return the supports with shapes in place of rims and holes, for a whole rectangle with its edges.
+    Raises ValueError for a hole that the sheet lacks, and for a rim in another object than a support."""
     others = {"patch": scene.patches, "cutout": scene.cutouts, "load": scene.loads, "mass": scene.masses}
     for kind, parts in others.items():
         for number, part in enumerate(parts, start=1):
             shape = getattr(part, "shape", None) or getattr(part, "where", None)
             if shape is not None and (shape.rim or shape.hole):
                 raise ValueError(f"{kind} {number}: rim and hole are of a support's where")
-    found: list[AnySupport] = []
+    supports: list[AnySupport] = []
     for number, support in enumerate(scene.supports, start=1):
         shape = None if isinstance(support, Point) else place(support)
         if shape is None or not (shape.rim or shape.hole):
-            found.append(support)
+            supports.append(support)
         elif shape.rim and not scene.sheet.drawn:
-            found += [support.replace(where=None, edge=edge) for edge in EDGES]
+            supports += [support.replace(where=None, edge=edge) for edge in EDGES]
         elif shape.rim:
-            found.append(support.replace(where=Shape(beyond=_corners(scene.region.exterior))))
+            supports.append(support.replace(where=Shape(beyond=_corners(scene.region.exterior))))
         else:
-            found.append(support.replace(where=_hole(scene, shape.hole or 0, f"support {number}.where")))
-    return tuple(found)
+            supports.append(support.replace(where=_hole(scene, shape.hole or 0, f"support {number}.where")))
+    return tuple(supports)
 
 
 def _hole(scene: SceneFields, number: int, key: str) -> Shape:
-    """Return the shape of a hole by its number from 1. Raises ValueError where there is none."""
+    """Return the shape of a hole by its number from 1. Raises ValueError if the sheet lacks it."""
     shapes = [cutout.shape for cutout in scene.cutouts]
     if not shapes:
         rings = sorted(scene.region.interiors, key=lambda ring: float(ring.centroid.x))
@@ -154,7 +153,7 @@ def _corners(ring: Any) -> tuple[PlanPoint, ...]:
 
 
 def misplaced(scene: SceneFields) -> Iterator[object]:
-    """Yield why something is held, loaded or probed where no sheet is; what is false where it is not."""
+    """Yield sentences on points and parts that are held, loaded or probed off the sheet, or false values."""
     for key, point in marked(scene).items():
         where = f"{key} = {list(point)} m: there is no sheet, by its outline or a cutout"
         yield off_sheet(scene, point) and where
@@ -165,13 +164,13 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
     for name, part in parts.items():
         if (shape := getattr(part, "where", None)) is not None:
             where = f"{name}.where: {shape.in_words()}: no part of"
-            on = area_in(scene, shape) > least**2
-            if not on and name in named(scene.supports):  # the line along which it touches the sheet
-                on = common(scene.region, shape.area).length > least
-            yield not on and f"{where} it is on the sheet"
+            overlaps = area_in(scene, shape) > least**2
+            if not overlaps and name in named(scene.supports):  # the line along which it touches the sheet
+                overlaps = common(scene.region, shape.area).length > least
+            yield not overlaps and f"{where} it is on the sheet"
             if isinstance(part, EdgeLoad):
-                inside = edge_length(scene, part.edge, shape) > least
-                yield not inside and f"{where} edge {part.edge} is in it"
+                loaded = edge_length(scene, part.edge, shape) > least
+                yield not loaded and f"{where} edge {part.edge} is in it"
     for name, edge in ((name, getattr(part, "edge", None)) for name, part in parts.items()):
         where = f"{'support' if name == edge else name} on edge {edge}"
         touches = f"{where}: the sheet touches that edge at points at most; say where by a shape"
@@ -180,11 +179,11 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
         whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
         short = f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
         yield edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole and short
-    yield _moved_apart(scene)
+    yield _motion_conflict(scene)
 
 
-def _moved_apart(scene: SceneFields) -> str:
-    """Why supports that hold the same part of the sheet cannot both be obeyed; "" where all can."""
+def _motion_conflict(scene: SceneFields) -> str:
+    """Return a sentence on two supports that move one part of the sheet differently, "" without any."""
     import shapely
 
     supports = named(scene.supports)

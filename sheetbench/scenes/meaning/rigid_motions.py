@@ -1,4 +1,4 @@
-"""The rigid motions that a scene's supports and actuators leave free: a static answer needs none."""
+"""The rigid motions that a scene's supports and actuators leave free; a static answer requires none."""
 
 from __future__ import annotations
 
@@ -19,22 +19,23 @@ ROUND_OFF = 1e-9
 
 
 def free_rigid_motions(scene: SceneFields) -> list[str]:
-    """Names of the rigid motions that supports and actuators leave free, as many as there are independent
-    ones (empty: a static answer can exist).
+    """Return the names of the independent rigid motions that supports and actuators leave free.
 
-    An actuator whose base is held, or that prescribes the edge's motion, leaves none.
-    A support fixes rows of the rigid velocity t + θ × X at both ends of its edge and, if it holds
-    the tilt, those of θ × e_z; what the stacked rows leave in their null space is free. A translation is
-    named where it is free alone; a rotation with the translation that it needs, about the edge that rests.
+    If there are none, a static answer can exist. An actuator whose base is held, or that prescribes the
+    edge's motion, leaves none. A support fixes rows of the rigid velocity t + θ × X at both ends of its edge
+    and, if it holds the tilt, rows of θ × e_z; the null space of the stacked rows is free. A translation is
+    named if it is free without a rotation; a rotation, with its translation, by the edge that rests.
     """
     if any(not isinstance(actuator, Chain) or actuator.base != "free" for actuator in scene.actuators):
         return []
-    return list(_left_free(scene.sheet, scene.supports, scene.cutouts))
+    return list(_free_motions(scene.sheet, scene.supports, scene.cutouts))
 
 
 @lru_cache(maxsize=64)
-def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]) -> tuple[str, ...]:
-    """Names of the rigid motions that supports leave free: computed at every solve of a scene."""
+def _free_motions(
+    sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutout, ...]
+) -> tuple[str, ...]:
+    """Return the names of the rigid motions that supports leave free; cached, for every solve needs them."""
     centre = np.array([sheet.length_x / 2, sheet.length_y / 2, 0.0])
     scale = max(sheet.lengths)
     rows = [np.zeros((6, 6))]
@@ -57,19 +58,19 @@ def _left_free(sheet: Sheet, supports: tuple[Support, ...], cutouts: tuple[Cutou
     _, singular, motions = np.linalg.svd(np.concatenate(rows), full_matrices=False)
     rank = int(np.sum(singular > ROUND_OFF))
     free = motions[rank:]
-    fixed = np.eye(6) - free.T @ free  # what of a motion is not free
+    fixed = np.eye(6) - free.T @ free  # projector onto motions that are not free
     sliding = np.linalg.norm(fixed[:, :3], axis=0) < ROUND_OFF
     in_words = [f"translation along {name}" for name, slides in zip("xyz", sliding, strict=True) if slides]
     for axis, name in enumerate("xyz"):
         moved = np.linalg.lstsq(fixed[:, :3], -fixed[:, 3 + axis], rcond=ROUND_OFF)[0]
         if np.linalg.norm(fixed[:, :3] @ moved + fixed[:, 3 + axis]) < ROUND_OFF:
-            in_words.append(f"rotation about {_resting(sheet, axis, scale * moved) or name}")
+            in_words.append(f"rotation about {_resting_edge(sheet, axis, scale * moved) or name}")
     return (*in_words, *["a screw"] * (len(free) - len(in_words)))
 
 
-def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
-    """The edge about which a unit rotation about an axis turns where the centre moves by `moved` [m]; "" for
-    none, as about the centre."""
+def _resting_edge(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
+    """Return the edge that rests in a unit rotation about an axis that moves the centre by `moved` [m]. "" if
+    no edge rests, for instance if the centre does."""
     for name, edge in EDGES.items():
         arm = np.zeros(3)
         arm[edge.normal_axis] = (0.5 if edge.far_end else -0.5) * sheet.lengths[edge.normal_axis]
@@ -79,17 +80,19 @@ def _resting(sheet: Sheet, axis: int, moved: np.ndarray) -> str:
 
 
 def unstopped_motions(scene: SceneFields) -> list[str]:
-    """Return the names of rigid motions that neither supports nor, out of the plane, obstacles stop."""
+    """Return the names of rigid motions that neither supports nor obstacles stop. Obstacles stop motions out
+    of the plane."""
     free = free_rigid_motions(scene)
     if not (free and scene.obstacles):
         return free
     resting = (Held(edge="x0", components=("z",)), Held(edge="x1", components=("z",)))
-    return list(_left_free(scene.sheet, scene.supports + resting, scene.cutouts))
+    return list(_free_motions(scene.sheet, scene.supports + resting, scene.cutouts))
 
 
 def require_static(scene: SceneFields, linear: str = "") -> None:
-    """Raise SceneError unless the supports stop every rigid motion, or obstacles those out of the plane; for
-    friction; for obstacles of what is `linear`, who it is."""
+    """Raise SceneError if a static answer is impossible: a rigid motion is free, or obstacles have
+    friction. Obstacles stop motions out of the plane. linear: the name of a linear model, which cannot
+    have obstacles."""
     if linear:
         require_no_obstacles(scene, linear)
     require_frictionless(scene)

@@ -1,10 +1,10 @@
-"""Beyond which strains a linear law of stress and strain, and so a linear spring, means nothing.
+"""Limits of strain beyond which a linear law of stress and strain, and so a linear spring, is not valid.
 
 weight   ρ g a/E, the strain of a sheet of longer side a that hangs by its own weight: above 0.05; ρ/E is its
          mass over its membrane stiffness, the means of layers, patches and tapers
-stretch  the largest elongation that a model finds in its answer, wherever it looks for it: above one half
+stretch  the largest elongation in a model's answer, at the places that the model evaluates: above one half
 
-One rule for every model; where a model looks is its own affair.
+The rule holds for every model.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ STRETCH_LIMIT = 0.5
 
 
 def weight_strain(scene: SceneFields) -> float:
-    """ρ g a/E under the last of the weight."""
+    """Return ρ g a/E under the last factor of the weight."""
     if scene.gravity is None:
         return 0.0
     pull = math.hypot(*scene.gravity.last_acceleration) * max(scene.sheet.lengths)
@@ -27,8 +27,7 @@ def weight_strain(scene: SceneFields) -> float:
 
 
 def outside_model(scene: SceneFields, stretch: float, what: str = "the mid-surface stretched by") -> str:
-    """A clause that says so where a sheet is strained beyond the limits, else nothing; what: the words before
-    the stretch."""
+    """Return a clause on strains beyond the limits, "" within them; what: the words before the stretch."""
     weight = weight_strain(scene)
     if weight <= WEIGHT_LIMIT and stretch <= STRETCH_LIMIT:
         return ""

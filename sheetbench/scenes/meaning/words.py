@@ -1,4 +1,4 @@
-"""A scene in words, as its author would read it back: what is where, how large, and which way it acts."""
+"""A scene in words, for its author to check: the place, size and direction of every part."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from sheetbench.scenes.objects.tables import FactorTable
 
 
 def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
-    """Yield what each part of the scene means: a part's name and a sentence."""
+    """Yield the name of each part of a scene and a sentence on it."""
     sheet, material, mass = scene.sheet, scene.material, mass_of(scene)
     tapered = sheet.given(("taper_x", "taper_y")).items()
     tapers = "".join(f", from {_mm(low)} to {_mm(high)} mm along {key[-1]}" for key, (low, high) in tapered)
@@ -40,20 +40,21 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){tapers}, {1e3 * mass:.3g} g",
     )
     rubber = f" at small strains, rubber by the law {material.law}" if material.law else ""
-    rubber += f" ({own})" if (own := _own(material.given(CONSTANTS))) else ""
+    rubber += f" ({constants})" if (constants := _constants(material.given(CONSTANTS))) else ""
     dampers = f", dampers of {1e3 * time:.4g} ms · k" if (time := material.dashpot_time) else ""
     drag = f", drag of {material.damping_rate:g} 1/s · mass" if material.damping_rate else ""
-    elasticity = f"{_elasticity(material)}, {_own({'density': material.density})}"
+    elasticity = f"{_elasticity(material)}, {_constants({'density': material.density})}"
     yield "material", f"{elasticity}{rubber}{_relaxation(material)}{dampers}{drag}"
     for n, layer in enumerate(scene.layers, start=1):
-        yield f"layer {n}", _own({"thickness": layer.thickness, **layer.own})
+        yield f"layer {n}", _constants({"thickness": layer.thickness, **layer.own})
     for n, patch in enumerate(scene.patches, start=1):
-        yield f"patch {n}", f"{patch.shape.in_words()}: {_own(patch.own) or 'not flat at rest'}"
+        yield f"patch {n}", f"{patch.shape.in_words()}: {_constants(patch.own) or 'not flat at rest'}"
     for n, cutout in enumerate(scene.cutouts, start=1):
         yield f"cutout {n}", cutout.shape.in_words()
     for n, payload in enumerate(scene.masses, start=1):
         yield f"mass {n}", _payload(payload, sheet)
-    yield from natural_in_words(scene)
+    for name, natural in natural_in_words(scene):
+        yield f"{name}, natural" if name.startswith("patch") else name, natural
     yield "weight", _weight(scene, mass + carried(scene))
     if scene.air is not None:
         share = 100.0 * scene.air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
@@ -81,7 +82,7 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
 
 
 def _at_rest(scene: SceneFields) -> str:
-    """Return what holds the sheet, or why there is no answer at rest."""
+    """Return a clause on how the sheet is held, or on the reason why it has no answer at rest."""
     if free := ", ".join(unstopped_motions(scene)):
         return f"not solved: nothing stops {free}"
     if any(obstacle.friction for obstacle in scene.obstacles):
@@ -92,18 +93,19 @@ def _at_rest(scene: SceneFields) -> str:
 
 
 def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
-    """Return what the sheet may touch, where it is and how far from the flat sheet."""
+    """Return an obstacle's kind, place and distance from the flat sheet, in words."""
     plane, along = isinstance(obstacle, Plane), getattr(obstacle, "normal", getattr(obstacle, "axis", ()))
     round_ = "" if plane else f" of radius {_mm(obstacle.radius)} mm"
     turned = f" {'facing' if plane else 'along'} ({', '.join(f'{part:.3g}' for part in along)})" * bool(along)
     more = ", moving" if obstacle.motion is not None else ""
     more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""
-    at = ", ".join(map(_mm, obstacle.position))
-    return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {1e3 * gap:.4g} mm from the flat sheet"
+    at = ", ".join(map(_mm, obstacle.position)).replace("-", "−")
+    near = 1e3 * gap if abs(gap) > ROUNDING else 0.0
+    return f"{obstacle.kind}{round_} at ({at}) mm{turned}{more}; {near:.4g} mm from the flat sheet"
 
 
 def _outline(scene: SceneFields) -> str:
-    """Return a clause on the outline and the area of a sheet that is no whole rectangle, "" for one."""
+    """Return a clause on outline and area, "" if the sheet is a whole rectangle."""
     if not scene.pierced:
         return ""
     outline = scene.sheet.outline
@@ -114,7 +116,7 @@ def _outline(scene: SceneFields) -> str:
     return f"{corners}, {1e4 * area_in(scene, None):.4g} cm² in all"
 
 
-NONE = 1e-12  # of the largest natural strain, for what is rounding
+ROUNDING = 1e-12  # of the largest natural strain, and of a gap [m]
 IN_PASCALS = {"young", *MODULI, *STRESSES}
 SYMBOLS = {
     "young": "E", "young_1": "E₁", "young_2": "E₂", "shear_12": "G₁₂", "poisson": "ν", "poisson_12": "ν₁₂",
@@ -122,8 +124,8 @@ SYMBOLS = {
 }  # fmt: skip
 
 
-def _own(constants: Mapping[str, Any]) -> str:
-    """Return constants by their keys with commas between."""
+def _constants(constants: Mapping[str, Any]) -> str:
+    """Return constants, by their keys, in words with commas between."""
     return ", ".join(_constant(key, value) for key, value in constants.items())
 
 
@@ -139,8 +141,8 @@ def _constant(key: str, value: Any) -> str:
 def _elasticity(material: Material) -> str:
     """Return E and ν, or the constants of fibres."""
     if material.kind == "isotropic":
-        return _own(material.given(("young", "poisson")))
-    constants = _own(material.given(("young_1", "young_2", "shear_12", "poisson_12")))
+        return _constants(material.given(("young", "poisson")))
+    constants = _constants(material.given(("young_1", "young_2", "shear_12", "poisson_12")))
     return f"fibres at {degrees(material.ply.angle):.4g}° from x, {constants}"
 
 
@@ -154,21 +156,21 @@ def _relaxation(material: Material) -> str:
 
 
 def sheet_in_words(sheet: Sheet, material: Material) -> str:
-    """The sheet and its material in a line."""
+    """Return the sheet and its material in a line."""
     sides = " × ".join(f"{1e3 * length:g}" for length in (*sheet.lengths, sheet.thickness))
     at_rest = " at rest" if material.branches.times else ""
-    return f"{sides} mm, {_elasticity(material)}{at_rest}, {_own({'density': material.density})}"
+    return f"{sides} mm, {_elasticity(material)}{at_rest}, {_constants({'density': material.density})}"
 
 
 def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
-    """Yield name and meaning of each of what makes a sheet other than flat at rest."""
+    """Yield the name of each natural state or temperature and a sentence on it."""
     for source in sources_of(scene):
         strain, curvature = (
-            np.where(np.abs(part) > NONE * np.abs(part).max(), part, 0.0)
+            np.where(np.abs(part) > ROUNDING * np.abs(part).max(), part, 0.0)
             for part in (source.strain, source.curvature)
         )
         parts, pretension = list[str](), getattr(source.of, "pretension", None)
-        if pretension:  # of which strain is each model's own to say
+        if pretension:  # its strain depends on the model
             x, y = (source.of.last_factor * pull for pull in pretension)
             parts, strain = [f"a tension of {x:.4g} N/m along x and {y:.4g} N/m along y"], np.zeros(3)
         for e, k, axis in zip(strain, curvature, "xy", strict=False):
@@ -184,14 +186,16 @@ def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
 
 
 def _stresses(scene: SceneFields, source: Source) -> tuple[float, float]:
-    """The least and the largest normal stress [Pa] along x and y in the faces of the layers, held flat."""
-    sums = []
+    """Return the least and the largest normal stress [Pa] along x and y in the faces of the layers of the
+    flat sheet, at the largest factor of a history."""
+    history, sums = source.of.history, []
+    factor = max(history.factor, key=abs) if history else 1.0
     for number, ply in enumerate(plies_of(scene)):
         for z in scene.sheet.thickness * np.array([ply.low, ply.high]):
             own = (source.strain - z * source.curvature) / TENSOR
             if isinstance(source.of, Temperature):
                 own = expansion_of(scene, number) * (source.of.change + z * source.of.gradient)
-            sums.append(-source.of.last_factor * (plane_stress(ply) @ own)[:2])
+            sums.append(-factor * (plane_stress(ply) @ own)[:2])
     return float(np.min(sums)) + 0.0, float(np.max(sums)) + 0.0
 
 
@@ -214,7 +218,7 @@ def _weight(scene: SceneFields, mass: float) -> str:
 
 
 def _support(support: AnySupport, sheet: Sheet) -> str:
-    """Return how and where the sheet is supported."""
+    """Return a support's kind, motion and place, in words."""
     moved, inside = "", ""
     if support.motion is not None:
         far = max(support.motion.displacement, key=lambda moved: sum(part * part for part in moved))
@@ -257,7 +261,7 @@ def _bent(curvature: float, sheet: Sheet, edge: str) -> str:
 
 
 def _load(load: AnyLoad, scene: SceneFields) -> str:
-    """Return what a load is in full."""
+    """Return a load without its history, in words."""
     where, whole = _in(load.where) if not isinstance(load, PointLoad) else "", hypot(*resultant(scene, load))
     match load:
         case PointLoad(at=at):
@@ -301,7 +305,7 @@ def _actuator(actuator: Actuator, sheet: Sheet) -> str:
 
 
 def _vector(vector: Sequence[float], unit: str) -> str:
-    """A force in words: along an axis where it lies on one."""
+    """Return a vector in words, by its axis if it lies along one."""
     along = [(axis, value) for axis, value in zip("xyz", vector, strict=True) if value != 0.0]
     if not along:
         return f"0 {unit}"
@@ -323,7 +327,7 @@ def _over_time(history: FactorTable | None) -> str:
 
 
 def _course(values: Sequence[float]) -> str:
-    """Return the first and the last value, with the extremes between where they are beyond both."""
+    """Return the first and the last value in words, and between them extremes that exceed both."""
     beyond = {min(values), max(values)} - {values[0], values[-1]}
     turns = sorted(beyond, key=[*values].index)
     return " to ".join(f"{value:g}" for value in (values[0], *turns, values[-1])).replace("-", "−")

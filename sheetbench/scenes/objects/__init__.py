@@ -1,4 +1,4 @@
-"""The objects of a scene, one file a table: fields, bounds, and what follows from one object alone.
+"""The objects of a scene, one file a table: fields, bounds, and properties that depend on one object alone.
 
-Annotations are evaluated where they stand, not texts that pydantic would have to compile one by one.
+Annotations are evaluated in place: as texts, pydantic would have to compile them one by one.
 """

@@ -1,19 +1,19 @@
 """The two kinds of actuator, each bound to one edge of the sheet.
 
-A chain is an elastic rod: joints divide the edge evenly into segments, and a joint's curvature is that of
-what lies nearest to it. A model may have it as rigid parts, with joints of the stiffness EI/ds and the rest
-angle curvature × ds between them. The chain alone carries its own weight and inertia, and holds the edge's
-tilt about the rod. A curvature is a number, a list with one value a joint (in the order of the edge's axis; a
-held base adds the half-length joints beside it), or a table {time, value}, of which statics take the last
-value, as of a motion. A motion is no chain and has no forces of its own. What neighbouring edges must agree
-on: `sheetbench.scenes.meaning.corners`.
+A chain is an elastic rod: joints divide the edge evenly into segments, and the part of the rod nearest to a
+joint has the joint's curvature. A model may divide it into rigid parts, with joints of the stiffness EI/ds
+and the rest angle curvature × ds between them. The chain alone carries its weight and inertia, and holds the
+edge's tilt about the rod. A curvature is a number, a list with one value a joint (in the order of the edge's
+axis; a held base adds half-length joints at the base), or a table {time, value}. Statics take the last value
+of a table, and of a motion. A motion is no chain and has no forces of its own. Rules for neighbouring edges
+are in `sheetbench.scenes.meaning.corners`.
 
-An actuator's name is its edge, or, where an edge has several, its edge and its number in the scene: "x1.2".
-What holds it is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
+An actuator's name is its edge or, if an edge has several, its edge and its number in the scene: "x1.2".
+Its support is named among the reactions: a motion as its edge, the base of an edge's chains as "EDGE base".
 
-Actuators on one edge share its masses: chains of a pair must have the same segments, plane and base, and lie
-anywhere through the thickness. They move as one chain whose axis is the mean of theirs; the joints of each
-slide along its axis, since two inextensible rods on opposite faces could not bend together.
+Actuators on one edge share its masses: chains of a pair must agree in segments, plane and base, and may lie
+anywhere through the thickness. They move as one chain whose axis is the mean of their axes; the joints of
+each slide along its axis, since two inextensible rods on opposite faces could not bend together.
 """
 
 from collections.abc import Iterator
@@ -63,7 +63,7 @@ class Chain(Frozen):
     line_density: Annotated[Positive, Unit("kg/m")]
     """Mass per length of the chain."""
     radius: Length
-    """Of its round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
+    """Radius of the round cross-section, for the rotary inertia and, on a face, the distance of its axis."""
     face: Literal["mid", "top", "bottom"] = "mid"
     """Where its axis lies: in the mid-surface, or thickness/2 + radius above (top) or below (bottom) it."""
     curvature: Curvature = 0.0
@@ -72,10 +72,10 @@ class Chain(Frozen):
     damping_time: Annotated[NonNegative, Unit("s")] = 0.0
     """Every joint has a damper of damping_time times its stiffness."""
     plane: Plane = "normal"
-    """It bends in the plane of the edge and the sheet's normal ("normal"), in the sheet's plane ("inplane"),
-    or in both ("spatial")."""
+    """Plane of bending: of the edge and the sheet's normal ("normal"), the sheet's plane ("inplane"), or both
+    ("spatial")."""
     base: Base = "free"
-    """Held nowhere ("free"), or at its middle or at the end where the edge starts or ends."""
+    """Place where the chain is held: nowhere ("free"), its middle, or its end at the edge's start or end."""
 
     def _faults(self) -> Iterator[object]:
         yield (
@@ -89,22 +89,23 @@ class Chain(Frozen):
 
     @property
     def held_as(self) -> str:
-        """The name of its base among the reactions, where it is held."""
+        """Return the name of the chain's base among the reactions."""
         return f"{self.edge} base"
 
     @property
     def base_ends(self) -> tuple[int, ...]:
-        """Ends that its base holds: 0 where the edge starts, 1 where it ends."""
+        """Return the ends that the base holds: 0 where the edge starts, 1 where it ends."""
         return {"free": (), "start": (0,), "middle": (), "end": (1,)}[self.base]
 
     def axis_height(self, thickness: float) -> float:
-        """Height [m] of its axis along the director of a sheet of a thickness [m]."""
+        """Return the height [m] of the chain's axis along the director of a sheet of a thickness [m]."""
         side = {"mid": 0.0, "top": 1.0, "bottom": -1.0}[self.face]
         return side * (thickness / 2.0 + self.radius)
 
     def pieces(self) -> np.ndarray:
-        """Bounds (n + 1,) of the pieces of its edge that have a joint's curvature each, in segments: what
-        lies nearest to the joint, and what is left at the ends. All of it is one piece where no joint is."""
+        """Return the bounds (n + 1,), in segments, of the edge's pieces with one joint's curvature each. A
+        piece is nearer to its joint than to others; the outer ones reach to the ends. Without a joint the
+        whole edge is one piece."""
         inner = np.arange(1, self.segments - 1) + 0.5  # between joints of whole length
         extra = {"start": 0.5, "end": self.segments - 0.5, "middle": self.segments / 2.0}.get(self.base)
         if extra is not None and self.joints == self.segments and self.joints > 1:
@@ -112,7 +113,7 @@ class Chain(Frozen):
         return np.concatenate([[0.0], inner, [self.segments]])
 
     def curvatures(self) -> PiecewiseCurve:
-        """Intrinsic curvature (joints,) [1/m] of every joint over time; (1,), if it has none."""
+        """Return the intrinsic curvature (joints,) [1/m] of every joint over time, (1,) without joints."""
         count = max(self.joints, 1)
         if isinstance(self.curvature, CurvatureTable):
             return PiecewiseCurve(self.curvature.time, [(value,) * count for value in self.curvature.value])
@@ -121,7 +122,7 @@ class Chain(Frozen):
 
     @property
     def joints(self) -> int:
-        """Joints between segments, and the half-length joints that a held base carries."""
+        """Return the number of joints: between segments, and the half-length ones at a held base."""
         held = self.base in ("start", "end") or (self.base == "middle" and self.segments % 2 == 0)
         return self.segments - 1 + held
 
@@ -144,7 +145,7 @@ class EdgeMotion(OverTime):
 
     @property
     def held_as(self) -> str:
-        """Its name among the reactions."""
+        """Return the motion's name among the reactions."""
         return str(self.edge)
 
 

@@ -1,4 +1,4 @@
-"""What a sheet is made of: constants, each one number or an array, at points or of the cells of a grid."""
+"""Material constants and thickness of a sheet, each a number or an array over points or a grid's cells."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Self
@@ -16,7 +16,9 @@ NUMBERS = ("thickness", "young", "poisson", "density")
 
 @dataclass(frozen=True, eq=False)
 class Constants:
-    """thickness [m], young [Pa], poisson [-], density [kg/m³]: numbers, or arrays of one shape: of plan cells
+    """Thickness and material constants of a sheet.
+
+    thickness [m], young [Pa], poisson [-], density [kg/m³]: numbers, or arrays of one shape: of plan cells
     (rows, columns) from y0 to y1, each row from x0 to x1. plies: of an orthotropic sheet, from its lower face
     up, in place of young and poisson.
 
@@ -35,7 +37,7 @@ class Constants:
 
     @classmethod
     def of(cls, sheet: Sheet, material: Material) -> Self:
-        """Return the table of a sheet that is the same all over."""
+        """Return the constants of a homogeneous sheet."""
         plies = (material.ply,) if material.kind == "orthotropic" else ()
         return cls(sheet.thickness, material.young, material.poisson, material.density, plies)
 
@@ -50,12 +52,12 @@ class Constants:
         return replace(self, plies=plies, **values)
 
     def by_name(self) -> dict[str, Any]:
-        """Return every constant by its name; of several plies those that all of the sheet has."""
+        """Return every constant by its name; of a sheet of several plies thickness and density alone."""
         if not self.plies:
             return {name: getattr(self, name) for name in NUMBERS}
-        own = self.plies[0]._asdict() if len(self.plies) == 1 else {}
-        kept = {name: value for name, value in own.items() if name not in ("low", "high", "density")}
-        return {"thickness": self.thickness, "density": self.per_area / self.thickness, **kept}
+        ply = self.plies[0]._asdict() if len(self.plies) == 1 else {}
+        elastic = {name: value for name, value in ply.items() if name not in ("low", "high", "density")}
+        return {"thickness": self.thickness, "density": self.per_area / self.thickness, **elastic}
 
     def replace(self, **values: Any) -> Self:
         """Return a copy with other values for some constants."""
@@ -63,20 +65,20 @@ class Constants:
 
     @property
     def per_area(self) -> Any:
-        """Mass per area [kg/m²]."""
+        """Return the mass per area [kg/m²]."""
         if self.plies:
             return sum(ply.density * (ply.high - ply.low) for ply in self.plies) * self.thickness
         return self.density * self.thickness
 
     @property
     def moment_per_area(self) -> Any:
-        """First moment of the mass about the mid-surface, per area [kg/m], 0 without plies."""
+        """Return the first moment of the mass about the mid-surface, per area [kg/m], 0 without plies."""
         each = (ply.density * (ply.high**2 - ply.low**2) / 2.0 for ply in self.plies)
         return sum(each, 0.0) * self.thickness**2
 
     @property
     def stretching(self) -> Any:
-        """E h [N/m], with √(E₁ E₂) of plies: a measure of the membrane's stiffness."""
+        """Return E h [N/m], with E = √(E₁ E₂) for plies: a measure of the membrane's stiffness."""
         if self.plies:
             each = ((ply.young_1 * ply.young_2) ** 0.5 * (ply.high - ply.low) for ply in self.plies)
             return sum(each) * self.thickness
@@ -84,13 +86,13 @@ class Constants:
 
     @property
     def rotary_per_area(self) -> Any:
-        """Rotary inertia of the normal per area [kg]."""
+        """Return the rotary inertia of the normal per area [kg]."""
         if self.plies:
             return sum(p.density * (p.high**3 - p.low**3) / 3.0 for p in self.plies) * self.thickness**3
         return self.per_area * self.thickness**2 / 12.0
 
     def require_grid(self, grid: Grid) -> None:
-        """Raise BadInput for a table that is not one of the grid's cells."""
+        """Raise BadInput unless every constant is a number or an array over the grid's cells."""
         rows, columns = grid[1] - 1, grid[0] - 1
         for name in NUMBERS:
             shape = np.shape(getattr(self, name))
@@ -101,4 +103,4 @@ class Constants:
                 )
 
 
-Cells = Constants  # arrays of the plan cells of a grid
+Cells = Constants  # name of the public interface, for arrays over the plan cells of a grid

@@ -1,6 +1,6 @@
 """Cutouts of a sheet, and its plan without them.
 
-What lies on a shape's boundary belongs to it. A plan is one piece that is connected by more than points.
+A shape includes its boundary. A plan is one piece that is connected by more than points.
 """
 
 from collections.abc import Sequence
@@ -22,11 +22,11 @@ class Cutout(Frozen):
     """A part of the rectangle or the outline where there is no sheet."""
 
     shape: Shape
-    """Where: a rectangle, a circle or a polygon; it may reach over the rim."""
+    """The cutout: a rectangle, a circle or a polygon; it may reach over the rim."""
 
 
 def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
-    """The sheet's plan [m]: a polygon with holes. Raises ValueError for a sheet without area or in pieces."""
+    """Return the sheet's plan [m], a polygon with holes. Raises ValueError if it is empty or in pieces."""
     import shapely
 
     plan: Any = shapely.box(0.0, 0.0, *sheet.lengths)
@@ -37,7 +37,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
             raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
         plan = sheet.mesh.area
     neck = NECK * min(sheet.lengths)
-    if (number := _idle(plan, cutouts)) is not None:
+    if (number := _first_idle(plan, cutouts)) is not None:
         words = f"cutout {number + 1}.shape: {cutouts[number].shape.in_words()}"
         raise ValueError(f"{words}: no part of it is on what is left of the sheet")
     if cutouts:
@@ -45,16 +45,16 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
     inner = plan.buffer(-0.5 * neck)
     if (count := 0 if inner.is_empty else shapely.get_num_geometries(inner)) != 1:
         drawn = "sheet.mesh: it covers" if sheet.mesh is not None else "sheet.outline: it encloses"
-        what = "cutout: they leave" if cutouts else drawn
+        subject = "cutout: they leave" if cutouts else drawn
         parts = f"{count} parts that are connected at points at most" if count else "no part"
-        raise ValueError(f"{what} {parts}; a sheet is one piece")
-    if plan.geom_type != "Polygon":  # slivers beside it
+        raise ValueError(f"{subject} {parts}; a sheet is one piece")
+    if plan.geom_type != "Polygon":  # with slivers
         plan = max(plan.geoms, key=lambda part: part.area)
     return plan
 
 
-def _idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
-    """Return the first cutout, from 0, that takes nothing from what those before it leave of a plan."""
+def _first_idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
+    """Return the number, from 0, of the first cutout that lies outside the plan or in earlier cutouts."""
     import shapely
 
     areas = np.array([cutout.shape.area for cutout in cutouts])
@@ -63,7 +63,7 @@ def _idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
         taken = plan.intersection(area)
         before = tree.query(area)
         before = np.sort(before[before < number])
-        # from the last on: it is the nearest of a row, and leaves few others to test
+        # from the last on: in a row of cutouts it is the nearest, and leaves few others to test
         while len(before := before[shapely.intersects(taken, areas[before])]):
             taken, before = taken.difference(areas[before[-1]]), before[:-1]
         if taken.area <= COINCIDENT * plan.area:
@@ -72,7 +72,7 @@ def _idle(plan: "Polygon", cutouts: Sequence[Cutout]) -> int | None:
 
 
 def nearest(plan: "Polygon", point: PlanPoint) -> PlanPoint:
-    """The point of a plan that is nearest to one [m]: itself where it lies there."""
+    """Return the point of a plan that is nearest to a point [m]: the point itself if it lies in the plan."""
     import shapely
 
     x, y = (float(c) for c in shapely.shortest_line(plan, shapely.Point(point)).coords[0])
@@ -80,7 +80,7 @@ def nearest(plan: "Polygon", point: PlanPoint) -> PlanPoint:
 
 
 def common(plan: "Polygon", area: Any) -> Any:
-    """The part of a plan in an area; of a plan with many holes it is soon known where that is all of it."""
+    """Return the part of a plan in an area; the test for a whole area saves time on plans of many holes."""
     import shapely
 
     shapely.prepare(plan)

@@ -1,4 +1,4 @@
-"""The fields of a scene: tables and lists of them, their names in a file, and what they say of the sheet."""
+"""The fields of a scene: tables and lists of them, their names in a file, and properties of the sheet."""
 
 from collections.abc import Callable
 from functools import cached_property
@@ -29,12 +29,12 @@ from sheetbench.scenes.objects.supports import Point, Support, place, tilt_axes
 if TYPE_CHECKING:
     from shapely import Polygon
 
-LISTS = {  # by their keys in Python: those in a file, where each entry is a table
+LISTS = {  # by the keys in Python: the keys in a file, where each entry is a table
     "layers": "layer", "patches": "patch", "cutouts": "cutout", "supports": "support", "loads": "load",
     "masses": "mass", "obstacles": "obstacle", "actuators": "actuator",
 }  # fmt: skip
 POINTS = 'support.kind = "point"'
-SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by the words for what it is that a scene has
+SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by a feature's key: whether a scene has it
     "sheet.outline": lambda scene: scene.sheet.outline,
     "sheet.mesh": lambda scene: scene.sheet.mesh,
     "cutout": lambda scene: scene.cutouts,
@@ -47,7 +47,7 @@ SHAPED: dict[str, Callable[["SceneFields"], object]] = {  # by the words for wha
 
 
 class SceneFields(Frozen, defer_build=True):
-    """The fields of a scene, not yet checked against each other, and what follows from them."""
+    """The fields of a scene, not yet checked against each other, and properties of the sheet."""
 
     model_config = ConfigDict(alias_generator=lambda key: LISTS.get(key, key))
 
@@ -58,7 +58,7 @@ class SceneFields(Frozen, defer_build=True):
     sheet: Sheet
     """The flat, stress-free sheet."""
     material: Material
-    """What the sheet is made of."""
+    """Elasticity, density and damping of the sheet."""
     layers: tuple[Layer, ...] = Field(default=(), kw_only=True)
     """Plies of a laminate, from the lower face up; none for one material."""
     patches: tuple[Patch, ...] = Field(default=(), kw_only=True)
@@ -82,7 +82,7 @@ class SceneFields(Frozen, defer_build=True):
     obstacles: tuple[Obstacle, ...] = Field(default=(), kw_only=True)
     """Rigid bodies that the sheet may touch from one side, without friction at rest."""
     actuators: tuple[Actuator, ...] = ()
-    """What moves edges that have no support."""
+    """Chains and motions of edges that have no support."""
     initial: Initial | None = Field(default=None, kw_only=True)
     """The shape that a motion starts from; without this table nothing but the supports shapes the sheet."""
     springs: SpringSet | None = None
@@ -101,7 +101,7 @@ class SceneFields(Frozen, defer_build=True):
     @model_validator(mode="before")
     @classmethod
     def _holes_of_drawing(cls, data: Any) -> Any:
-        """Read the sheet's outline from a drawing, whose holes are cutouts besides the scene's own."""
+        """Read the sheet's outline from a drawing, and add the drawing's holes to the cutouts."""
         sheet = data.get("sheet") if isinstance(data, dict) else None
         if not isinstance(sheet, dict) or not isinstance(sheet.get("outline"), str):
             return data
@@ -116,40 +116,39 @@ class SceneFields(Frozen, defer_build=True):
     @model_validator(mode="before")
     @classmethod
     def _layers_of_stiffness(cls, data: Any) -> Any:
-        """Replace a material given by its stiffnesses by the laminate that has them."""
+        """Replace a material given by its stiffnesses by an equivalent laminate."""
         given = data.get("material") if isinstance(data, dict) else None
         kind = given.get("kind") if isinstance(given, dict) else getattr(given, "kind", "")
         if kind != "stiffness" or not isinstance(data.get("sheet"), dict | Sheet):
             return data
         try:
             material = Material.model_validate(given)
-        except ValidationError:  # which validating the fields says, by their keys
+        except ValidationError:  # reported, with its keys, when the fields are validated
             return data
         own = given if isinstance(given, dict) else material.model_dump(exclude_defaults=True)
         return as_laminate({**data, "material": own}, material)
 
     def document(self) -> dict[str, Any]:
-        """The scene as in a file, for JSON: plain lists, dicts, numbers and texts."""
+        """Return the scene with the keys of a file as plain lists, dicts, numbers and texts, for JSON."""
         return self.model_dump(mode="json", by_alias=True, exclude_none=True)
 
     def named_actuators(self) -> dict[str, Actuator]:
-        """The actuators in their order by their names: an actuator's is its edge, or, where an edge has
-        several, its edge and its number."""
+        """Return the actuators by their names: the edge, with a number if any edge has several actuators."""
         names = [str(actuator.edge) for actuator in self.actuators]
         if len(set(names)) < len(names):
             names = [f"{edge}.{i + 1}" for i, edge in enumerate(names)]
         return dict(zip(names, self.actuators, strict=True))
 
     def named_obstacles(self) -> dict[str, AnyObstacle]:
-        """The obstacles by the names that answers give them: "obstacle 1" by their number."""
+        """Return the obstacles by their names in answers: "obstacle 1" and so on."""
         return {f"obstacle {n}": obstacle for n, obstacle in enumerate(self.obstacles, start=1)}
 
     def motions(self) -> dict[str, EdgeMotion]:
-        """The edge motions by their names."""
+        """Return the edge motions by their names."""
         return {name: a for name, a in self.named_actuators().items() if isinstance(a, EdgeMotion)}
 
     def chains(self) -> dict[str, dict[str, Chain]]:
-        """The chains by their names, of every edge with some."""
+        """Return the chains by their names, for every edge that has chains."""
         by_edge: dict[str, dict[str, Chain]] = {}
         for name, actuator in self.named_actuators().items():
             if isinstance(actuator, Chain):
@@ -158,17 +157,17 @@ class SceneFields(Frozen, defer_build=True):
 
     @property
     def homogeneous(self) -> bool:
-        """Whether the sheet is as thick and of the same material all over."""
+        """Return whether thickness and material are constant over the sheet."""
         return not (any(p.own for p in self.patches) or self.sheet.taper_x or self.sheet.taper_y)
 
     @property
     def uniform(self) -> bool:
-        """Whether it is so, and isotropic."""
+        """Return whether the sheet is homogeneous, isotropic and of one layer."""
         return not self.varied_by
 
     @property
     def varied_by(self) -> str:
-        """The words by which it is not, "" where it is."""
+        """Return the keys by which the sheet is not uniform, "" if it is."""
         own: dict[str, object] = {FIBRES: self.material.kind == "orthotropic"}
         own |= {f"sheet.{name}": getattr(self.sheet, name) for name in ("taper_x", "taper_y")}
         own |= {"layer": self.layers, "patch": any(patch.own for patch in self.patches)}
@@ -176,44 +175,44 @@ class SceneFields(Frozen, defer_build=True):
 
     @property
     def natural_states(self) -> dict[str, Natural | Temperature]:
-        """What makes it other than flat and free of stress at rest, under the names as parameters."""
+        """Return the natural states and the temperature by their names as parameters, without absent ones."""
         own = {f"patch{n}.natural": patch.natural for n, patch in enumerate(self.patches, start=1)}
         every = {"natural": self.natural, **own, "temperature": self.temperature}
         return {name: state for name, state in every.items() if state is not None}
 
     @property
     def natural_by(self) -> str:
-        """The words by which it is not flat and free of stress at rest, "" where it is."""
+        """Return the keys by which the sheet is not flat and free of stress at rest, "" if it is."""
         return ", ".join(self.natural_states)
 
     @property
     def pierced(self) -> bool:
-        """Whether the sheet is no whole rectangle."""
+        """Return whether the sheet is no whole rectangle."""
         return bool(self.cutouts) or self.sheet.drawn
 
     @cached_property
     def region(self) -> "Polygon":
-        """The sheet's plan [m], with its holes, as shapely has it."""
+        """Return the sheet's plan [m] with its holes, a polygon of shapely."""
         return cutouts.region(self.sheet, self.cutouts)
 
     @property
     def shaped_by(self) -> str:
-        """The words by which it is no whole rectangle held and loaded at edges, at points or all over."""
+        """Return the keys of an outline, and of supports, loads and masses on a part of the sheet."""
         return ", ".join(word for word, has in SHAPED.items() if has(self))
 
     @property
     def drawn_by(self) -> str:
-        """The words of these, by which the sheet is no plain one."""
+        """Return all keys by which the sheet is not a plain one: uniform, rectangular and flat at rest."""
         return ", ".join(filter(None, [self.varied_by, self.shaped_by, self.natural_by]))
 
     def twisting_edges(self) -> frozenset[str]:
-        """The edges along which nothing holds the director: free, hinged and held ones."""
+        """Return the edges along which nothing holds the director: free, hinged and held ones."""
         bound = {actuator.edge for actuator in self.actuators}
         return frozenset(EDGES) - bound - {support.edge for support in self.supports if tilt_axes(support)}
 
     def probe_points(self) -> np.ndarray:
-        """Plan points of the probes, (n, 2) [m], in the order of `probes`."""
+        """Return the plan points of the probes, (n, 2) [m], in the order of `probes`."""
         return np.array(list(self.probes.values()), dtype=float).reshape(-1, 2)
 
 
-AScene = TypeVar("AScene", bound=SceneFields)  # of functions that return the kind of scene that they take
+AScene = TypeVar("AScene", bound=SceneFields)  # for functions that return a scene of their argument's class

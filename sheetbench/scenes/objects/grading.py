@@ -1,12 +1,11 @@
-"""How much finer a lattice's cells are at the edges of the sheet: towards all of them, or towards some.
+"""Grading of a lattice: how much finer its cells are at the edges of the sheet, all of them or some.
 
-A number from 0 (cells of one size) to 1 is of every edge, a `Grading` of those that it names; in text
-0.5:x0 or 0.5:x0,x1. Of two opposite edges both, one or neither may be named: where it is one the cells at the
-other are as long as in the middle of a sheet twice as long that is graded at both ends, where it is neither
-they are of one size.
+A number from 0 (cells of one size) to 1 holds for every edge, a `Grading` for the edges that it names; in
+text 0.5:x0 or 0.5:x0,x1. If one of two opposite edges is named, the cells at the other are as long as in the
+middle of a sheet twice as long that is graded at both ends; if neither is named, cells are of one size.
 
-`places` are those that lines of the grid are moved to, the sides of a drawn sheet's shapes, and on a
-sheet with other `sides`, as of one that has grown, the same shares of them.
+Lines of the grid are moved to `places`, the sides of a drawn sheet's shapes, and on a sheet with other
+`sides`, for instance one that has grown, to places in proportion.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -21,14 +20,15 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes.objects.sheet import EDGES
 
 THINNEST, ROUNDING = 0.1, 1e-9
-ALIKE = 1e-5  # weight of how alike cells are beside how near lines are to places; its square: to the middle
+EVENNESS = 1e-5  # weight of even cells against lines near to places; its square: of lines near to the middle
 Places = tuple[tuple[float, ...], tuple[float, ...]]
 
 
 @dataclass(frozen=True)
 class Grading:
-    """by: from 0, to 1; edges: those towards which cells are finer, some of the four; places: x and y [m],
-    rising, that lines are moved to, on a sheet with these sides [m]."""
+    """Grading towards some edges, or lines moved to places. by: from 0 to 1. edges: the edges towards which
+    cells are finer. places: x and y [m], rising, that lines are moved to. sides: of the sheet on which the
+    places are [m]."""
 
     by: float
     edges: tuple[str, ...]
@@ -44,7 +44,7 @@ class Grading:
         return f"{self:g}"
 
     def ends(self, axis: int) -> tuple[bool, bool]:
-        """Whether cells are finer towards the lower and towards the upper end of an axis."""
+        """Return whether cells are finer towards the lower and towards the upper end of an axis."""
         return f"{'xy'[axis]}0" in self.edges, f"{'xy'[axis]}1" in self.edges
 
 
@@ -52,14 +52,14 @@ Graded = float | Grading
 
 
 def remark(grading: Graded) -> str:
-    """What a title adds of a grading: ", grading 0.3", ", lines on shapes", nothing of equal cells."""
+    """Return a clause for titles: ", grading 0.3" or ", lines on shapes", "" for equal cells."""
     by = amount(grading)
     return ", lines on shapes" if grading and not by else f", grading {grading:g}" if grading else ""
 
 
 def towards(by: float, edges: Iterable[str] | None = None) -> Graded:
-    """Graded by a number from 0 to 1 towards the edges named, all of them for None: the number where
-    that is towards all or 0. Raises BadInput for anything else."""
+    """Return the grading by a number from 0 to 1 towards some edges, or all of them (None). Towards all
+    edges, or by 0, it is the number. Raises BadInput for other numbers and unknown edges."""
     if not 0.0 <= by <= 1.0:
         raise BadInput(f"grading = {by:g}: 0 (all cells alike) to 1 (finest at the edges)")
     named = tuple(EDGES) if edges is None else tuple(edges)
@@ -72,50 +72,50 @@ def towards(by: float, edges: Iterable[str] | None = None) -> Graded:
 
 
 def through(places: Places, sides: tuple[float, float]) -> Graded:
-    """Cells of one size but for the lines that are moved to these places on a sheet with these sides [m]."""
+    """Return the grading with equal cells but for lines moved to places, on a sheet with sides [m]."""
     return Grading(0.0, tuple(EDGES), places, sides) if any(places) else 0.0
 
 
 def places_with_lines(places: Sequence[float], length: float, count: int) -> list[float]:
-    """Return those of the places [m], rising, on a side of this length that have one of its `count` lines:
-    those no closer than THINNEST of a mean cell to the ends and to others, of which the outer has the line;
-    none if lines are too few.
+    """Return the places [m], rising, that get one of the `count` lines of a side of this length.
 
-    From either end it is the same: of two as far from both ends neither has one, nor has the middle of
-    places that are mirrored about it where the number of cells is odd.
+    A place gets a line if it is no closer than THINNEST of a mean cell to the ends and to other lines; of two
+    close places the outer gets it. If there are too few lines, no place gets one. The choice is symmetric:
+    of two close places equally far from both ends neither gets a line, nor does the middle of mirrored places
+    if the number of cells is odd.
     """
     least_spacing = THINNEST * length / (count - 1) * (1.0 - ROUNDING)
     inset = {at: rounded(min(at, length - at), length) for at in (rounded(each, length) for each in places)}
-    own = {rounded(place, length): place for place in reversed(places)}
-    kept = [0.0, length]
+    by_rounded = {rounded(place, length): place for place in reversed(places)}
+    lined = [0.0, length]
     for depth in sorted(set(inset.values())):
-        alike = [own[at] for at in sorted(own) if inset[at] == depth]
-        free = [at for at in alike if all(abs(at - other) >= least_spacing for other in kept)]
+        candidates = [by_rounded[at] for at in sorted(by_rounded) if inset[at] == depth]
+        free = [at for at in candidates if all(abs(at - other) >= least_spacing for other in lined)]
         if len(free) == 1 or (len(free) == 2 and free[1] - free[0] >= least_spacing):
-            kept += free
-    found = sorted(kept)[1:-1]
-    if not count % 2 and len(found) % 2 and is_mirrored(found, length):
-        found.pop(len(found) // 2)
-    return found if len(found) < count - 1 else []
+            lined += free
+    inner = sorted(lined)[1:-1]
+    if not count % 2 and len(inner) % 2 and is_mirrored(inner, length):
+        inner.pop(len(inner) // 2)
+    return inner if len(inner) < count - 1 else []
 
 
 def rounded(place: float, length: float) -> float:
-    """Return a place on a side without its rounding."""
+    """Return a place on a side rounded to ROUNDING of the side's length."""
     return round(place / (ROUNDING * length)) * ROUNDING * length
 
 
 def is_mirrored(places: Sequence[float], length: float) -> bool:
-    """Return whether places [m], rising, are the same from either end of a side."""
+    """Return whether places [m], rising, are symmetric about the middle of a side."""
     pairs = zip(places, reversed(places), strict=True)
     return all(rounded(one + other - length, length) == 0.0 for one, other in pairs)
 
 
 def line_numbers(places: Sequence[float], cells: int) -> list[int]:
-    """Return which of the lines 1 to `cells` − 1 are moved to places [cells], rising: those nearest to all of
-    them, by the sum of squares; of equally near ones those that leave cells most alike, then those nearest to
-    the middle.
+    """Return the numbers, of 1 to `cells` − 1, of the lines that are moved to places [cells], rising.
 
-    From either end they are the same. Source: dynamic programming over places and lines.
+    The lines have the least sum of squared distances from the places; between equal sums the evenness of the
+    cells decides, then the lines' distance from the middle. The choice is symmetric. Method: dynamic
+    programming over places and lines.
     """
     at = np.array([rounded(place, cells) for place in places])
     if not is_mirrored(places, cells):
@@ -125,15 +125,15 @@ def line_numbers(places: Sequence[float], cells: int) -> list[int]:
 
 
 def _nearest(places: np.ndarray, last: int, middle: float) -> list[int]:
-    """Rising numbers from 1 to `last`, which is that of the last place."""
+    """Return rising numbers of lines, from 1 on, for the places; the last place has the number `last`."""
     before, widest = np.zeros(1, dtype=int), last - len(places) + 1
     cost, start, choices = np.zeros(1), 0.0, []
     for number, place in enumerate(places, start=1):
         lines = number + np.arange(widest) if number < len(places) else np.array([last])
         between = lines[:, None] - before
         uneven = (place - start) ** 2 / np.maximum(between, 1)
-        own = (lines - place) ** 2 + ALIKE**2 * (lines - middle) ** 2
-        total = np.where(between > 0, cost + own[:, None] + ALIKE * uneven, np.inf)
+        distance = (lines - place) ** 2 + EVENNESS**2 * (lines - middle) ** 2
+        total = np.where(between > 0, cost + distance[:, None] + EVENNESS * uneven, np.inf)
         choices.append((lines, total.argmin(axis=1)))
         cost, start, before = total.min(axis=1), place, lines
     chosen, numbers = 0, []
@@ -144,7 +144,7 @@ def _nearest(places: np.ndarray, last: int, middle: float) -> list[int]:
 
 
 def lines_for_all(places: Sequence[float], length: float) -> int:
-    """Return how many lines a side [m] is to have so that each of the places [m], rising, has one."""
+    """Return the number of lines that a side [m] needs to have one at each of the places [m], rising."""
     ends = [0.0, *places, length]
     narrowest = min(after - before for before, after in pairwise(ends))
     count = max(len(ends), ceil(THINNEST * length / narrowest * (1.0 - ROUNDING)) + 1)
@@ -152,13 +152,12 @@ def lines_for_all(places: Sequence[float], length: float) -> int:
 
 
 def amount(grading: Graded) -> float:
-    """The number, whatever edges it is of."""
+    """Return the grading's number, without its edges."""
     return grading.by if isinstance(grading, Grading) else grading
 
 
 def as_settings(grading: Graded) -> dict[str, Any]:
-    """As documents have it: `grading`, `graded_edges` where it is not of all edges, `lines_at` where lines
-    are moved."""
+    """Return the keys of a grading in documents: `grading`, and `graded_edges` or `lines_at` if needed."""
     if isinstance(grading, Grading):
         if any(grading.places):
             return {"grading": grading.by, "lines_at": [list(one) for one in grading.places]}
@@ -167,7 +166,7 @@ def as_settings(grading: Graded) -> dict[str, Any]:
 
 
 def of_settings(settings: Mapping[str, Any], sides: tuple[float, float]) -> Graded:
-    """Return the grading that `as_settings` has written, on a sheet with these sides [m]; 0 for none."""
+    """Return the grading from the keys of `as_settings`, on a sheet with sides [m]; 0 without keys."""
     if x_and_y := settings.get("lines_at"):
         return through((tuple(x_and_y[0]), tuple(x_and_y[1])), sides)
     return towards(settings.get("grading") or 0.0, settings.get("graded_edges"))

@@ -1,4 +1,4 @@
-"""Grids of a sheet: how many masses lie along x and y and through the thickness, however they are requested.
+"""Grids of a sheet: the numbers of masses along x, along y and through the thickness.
 
 A grid is (nx, ny, layers), counted in masses: 9 × 9 masses have 8 × 8 cells. One number is the count along
 the shorter side, and the cells are then as square as that allows; two are the counts along x and y; a third
@@ -20,26 +20,27 @@ MASSES = 9  # along the shorter side, unless something else is requested
 
 
 def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
-    """Cells along x and y: `cells` along the shorter side, and cells as square as that allows."""
+    """Return the numbers of cells along x and y: `cells` along the shorter side, nearly square ones."""
     shorter = min(sheet.lengths)
-    # a half as of 5 cells on a side of 1.5 is not to be decided by the last bit
+    # rounding of a half, as in 7.5 cells, must not depend on the last bit
     shares = (cells * length / shorter for length in sheet.lengths)
     along_x, along_y = (max(cells, round(round(share, DIGITS))) for share in shares)
     return along_x, along_y
 
 
 def elements_of(sheet: Sheet, elements: int) -> tuple[int, int]:
-    """Elements along x and y: so many along the shorter side and near-square ones; of a sheet with a mesh of
-    its own so many sixteenths of that mesh's: 16 stands for the mesh as it is."""
+    """Return the numbers of elements along x and y: `elements` along the shorter side, nearly square ones. If
+    the sheet has a mesh of its own, 16 stands for that mesh, and other numbers for a mesh finer or coarser in
+    proportion."""
     if sheet.mesh is None:
         return near_square(sheet, elements)
     return near_square(sheet, max(1, round(elements * sheet.mesh.across / MESH)))
 
 
 def grid_of(sheet: Sheet, masses: int | Sequence[int] = MASSES) -> Grid:
-    """The grid that is requested by a number, or by two or three.
+    """Return the grid that one, two or three numbers request.
 
-    Raises BadInput below two masses a side or two layers, and for anything else than such numbers.
+    Raises BadInput below two masses a side or two layers, and for values that are not whole numbers.
     """
     counts = np.atleast_1d(masses)
     if counts.dtype.kind not in "iu" or counts.shape not in ((1,), (2,), (3,)):

@@ -1,5 +1,7 @@
-"""The kinds of load, each with a `history` that scales it over time: linear between samples, the first factor
-before and the last one after. Without one it acts in full from t = 0 on. Statics take the last factor.
+"""The kinds of load, each with a `history` that scales it over time.
+
+Factors are linear between samples, the first holds before and the last one after. Without a history the load
+acts in full from t = 0 on. Statics take the last factor.
 """
 
 from collections.abc import Iterator
@@ -15,8 +17,8 @@ from sheetbench.scenes.objects.tables import Loading
 
 class _Load(Loading):
     hold: bool = Field(default=False, kw_only=True)
-    """Whether it holds the sheet only until a motion starts, which lets it go at t = 0: with [initial]
-    shape = "static". Statics have it as any other load."""
+    """Whether the load acts only until a motion starts and is let go at t = 0: with [initial]
+    shape = "static". For statics it is a load like others."""
 
     def _faults(self) -> Iterator[object]:
         alone = "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
@@ -24,7 +26,7 @@ class _Load(Loading):
 
 
 class Initial(Frozen):
-    """Where a motion starts; statics do not depend on it."""
+    """The shape that a motion starts from; statics do not depend on it."""
 
     shape: Literal["static"]
     """"static": at rest in the equilibrium under all that acts at t = 0, loads with hold = true among it,
@@ -39,7 +41,7 @@ class PointLoad(_Load):
     at: Annotated[PlanPoint, Unit("m")]
     """Plan point [x, y] of the undeformed sheet where the force acts."""
     force: Annotated[Vector3, Unit("N")]
-    """Along x, y and z; it keeps its direction while the sheet moves."""
+    """Components along x, y and z; the force keeps its direction while the sheet moves."""
 
 
 class EdgeLoad(_Load):
@@ -49,9 +51,9 @@ class EdgeLoad(_Load):
     edge: EdgeName
     """The edge that is loaded."""
     force_per_length: Annotated[Vector3, Unit("N/m")] = (0.0, 0.0, 0.0)
-    """Along x, y and z, per undeformed length of the edge; it keeps its direction."""
+    """Components along x, y and z, per undeformed length of the edge; the force keeps its direction."""
     moment_per_length: Annotated[Number, Unit("N·m/m")] = 0.0
-    """About the current edge; > 0 turns the edge so that material just outside it would move towards +z."""
+    """Moment about the current edge; > 0 turns it so that material just outside would move towards +z."""
     where: Shape | None = Field(default=None, kw_only=True)
     """The part of the edge that is loaded, which lies in a shape; the whole edge unless given."""
 
@@ -66,7 +68,7 @@ class AreaLoad(_Load):
 
     kind: Literal["area"] = Field(default="area", kw_only=True)
     force_per_area: Annotated[Vector3, Unit("N/m²")]
-    """Along x, y and z, per undeformed area; it keeps its direction."""
+    """Components along x, y and z, per undeformed area; the force keeps its direction."""
     where: Shape | None = None
     """The part that is loaded; the whole sheet unless given."""
 

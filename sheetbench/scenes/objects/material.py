@@ -1,20 +1,20 @@
-"""The material: linear at small strains, and of rubber a law for large ones.
+"""The material: linear at small strains, for rubber with a law of large strains.
 
-With the principal stretches λ_i, J = λ₁ λ₂ λ₃, I₁ = Σ λ_i², I₂ = Σ_{i<j} λ_i² λ_j² and x = I₁ − 3, a law of
-rubber stores per volume
+A law of rubber stores per volume, with the principal stretches λ_i, J = λ₁ λ₂ λ₃, I₁ = Σ λ_i²,
+I₂ = Σ_{i<j} λ_i² λ_j² and x = I₁ − 3,
 
     W = f(x) + c₀₁ (I₂ − 3) − (2 f′(0) + 4 c₀₁) ln J + ½ Λ ln² J,   Λ = λ − 4 c₀₁ − 4 f″(0),
 
-λ Lamé's constant: free of stress at rest, of the shear modulus μ = 2 f′(0) + 2 c₀₁ and of the Poisson's ratio
-given at small strains. By `law`:
+λ Lamé's constant: free of stress at rest, with the shear modulus μ = 2 f′(0) + 2 c₀₁ and the given Poisson's
+ratio at small strains. The values of `law` are
 
     neo-hookean     f = ½ μ x
     mooney-rivlin   f = c1 x, c₀₁ = c2
     yeoh            f = c1 x + c2 x² + c3 x³
     gent            f = −½ shear · limit · ln(1 − x/limit)
 
-`young` is the long-time modulus, which everything at rest has; in motion Maxwell branches add to it
-(`sheetbench.scenes.objects.relaxation`). All moduli relax alike, Poisson's ratio stays.
+`young` is the long-time modulus, which statics use; in motion Maxwell branches add to it
+(`sheetbench.scenes.objects.relaxation`). All moduli relax alike, Poisson's ratio is constant.
 
 Sources: Mooney (1940), Rivlin (1948), Yeoh (1990), Gent (1996); ln J as in Bonet and Wood, Nonlinear
 Continuum Mechanics (2008), 6.4.
@@ -60,7 +60,7 @@ RubberLaw = Literal["neo-hookean", "mooney-rivlin", "yeoh", "gent"]
 
 
 class Energy(NamedTuple):
-    """A law's f(x) = c10 x + c20 x² + c30 x³ [Pa] or, with a limit [-], Gent's of f′(0) = c10; c01 [Pa]."""
+    """Energy of a law: f = c10 x + c20 x² + c30 x³ [Pa], or Gent's with f′(0) = c10 and a limit; c01 [Pa]."""
 
     c10: float
     c01: float = 0.0
@@ -70,25 +70,25 @@ class Energy(NamedTuple):
 
     @property
     def shear(self) -> float:
-        """μ of small strains [Pa]."""
+        """Return μ of small strains [Pa]."""
         return 2.0 * (self.c10 + self.c01)
 
     @property
     def stiffening(self) -> float:
-        """f″(0) [Pa]."""
+        """Return f″(0) [Pa]."""
         return 2.0 * self.c20 + (self.c10 / self.limit if self.limit else 0.0)
 
     def young(self, poisson: float) -> float:
-        """E of small strains [Pa]."""
+        """Return E of small strains [Pa]."""
         return 2.0 * (1.0 + poisson) * self.shear
 
     def volume(self, poisson: float) -> float:
-        """Λ [Pa]."""
+        """Return Λ [Pa]."""
         return 2.0 * self.shear * poisson / (1.0 - 2.0 * poisson) - 4.0 * (self.c01 + self.stiffening)
 
 
 class LawKeys(NamedTuple):
-    """A law's keys in [material] and the energy that they mean."""
+    """A law's keys in [material], and the energy as a function of their values."""
 
     keys: tuple[str, ...]
     energy: Callable[..., Energy]
@@ -101,11 +101,14 @@ WORDS: Mapping[str, LawKeys] = {
 }
 STRESSES = ("c1", "c2", "c3", "shear")
 CONSTANTS = (*STRESSES, "limit")
+UNDAMPED: Mapping[str, Any] = {
+    "damping_time": 0.0, "loss_factor": None, "frequency": None, "band": None, "relaxation": (),
+}  # fmt: skip
 LARGEST_LOSS = 2.0  # of a loss factor: rubber in its transition
 
 
 def _constants_in_schema(schema: dict[str, Any]) -> None:
-    """Write into a JSON Schema which keys a material needs: of fibres, of a law with constants, of others."""
+    """Write the required keys of a material into a JSON Schema: for fibres, laws with constants, others."""
     needed: dict[str, Any] = {"required": ["young", "poisson", "density"]}
     for law, words in WORDS.items():
         of_law = {"properties": {"law": {"const": law}}, "required": ["law"]}
@@ -120,8 +123,11 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
 
 
 class Material(Fibres):
-    """Elasticity, density, viscous damping and relaxation; of rubber a law with its constants, of a sheet
-    with fibres those along and across them (`sheetbench.scenes.objects.orthotropy`)."""
+    """Elasticity, density, viscous damping and relaxation of a sheet.
+
+    Rubber has a law with its constants, a sheet with fibres the constants along and across them
+    (`sheetbench.scenes.objects.orthotropy`).
+    """
 
     model_config = ConfigDict(json_schema_extra=_constants_in_schema)
 
@@ -140,52 +146,53 @@ class Material(Fibres):
     """Of rubber at large strains: neo-hookean (young, poisson), mooney-rivlin (c1, c2), yeoh (c1, c2, c3) or
     gent (shear, limit), each with poisson."""
     c1: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
-    """Of I1 - 3 in the energy: mooney-rivlin, yeoh."""
+    """Coefficient of I1 - 3 in the energy: mooney-rivlin, yeoh."""
     c2: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
-    """Of I2 - 3: mooney-rivlin; of (I1 - 3)²: yeoh."""
+    """Coefficient of I2 - 3: mooney-rivlin; of (I1 - 3)²: yeoh."""
     c3: Annotated[Number, Unit("Pa")] | None = Field(default=None, kw_only=True)
-    """Of (I1 - 3)³: yeoh."""
+    """Coefficient of (I1 - 3)³: yeoh."""
     shear: Modulus | None = Field(default=None, kw_only=True)
     """Shear modulus at small strains: gent."""
     limit: Positive | None = Field(default=None, kw_only=True)
-    """I1 - 3 that no load reaches: gent."""
+    """Limit of I1 - 3 that no load reaches: gent."""
     kind: Literal["isotropic", "orthotropic", "stiffness"] = Field(default="isotropic", kw_only=True)
     """Of an orthotropic sheet, one with fibres, the constants along axis 1 and across it are given; young and
     poisson are left out. With "stiffness" membrane, bending and area_density are given in their place."""
     membrane: Annotated[Stiffness, Unit("N/m")] | None = Field(default=None, kw_only=True)
     """Membrane stiffness, a number or { x, y, coupling, shear }: of kind = "stiffness"."""
     bending: Annotated[Stiffness, Unit("N·m")] | None = Field(default=None, kw_only=True)
-    """Bending stiffness likewise."""
+    """Bending stiffness, a number or { x, y, coupling, shear }: of kind = "stiffness"."""
     area_density: Annotated[Positive, Unit("kg/m²")] | None = Field(default=None, kw_only=True)
-    """Mass per area, likewise: 150 g/m² is 0.15."""
+    """Mass per area, of kind = "stiffness": 150 g/m² is 0.15."""
     young_3: Modulus | None = Field(default=None, kw_only=True)
-    """Young's modulus through the thickness, which solids alone ask for; young_2 unless given."""
+    """Young's modulus through the thickness, for solids alone; young_2 unless given."""
     poisson_13: Number | None = Field(default=None, kw_only=True)
-    """How much it contracts through the thickness where it is pulled along 1, likewise; poisson_12 unless
+    """Poisson's ratio for solids: contraction through the thickness when pulled along 1; poisson_12 unless
     given."""
     poisson_23: Number | None = Field(default=None, kw_only=True)
-    """The same where it is pulled along 2; poisson_12 unless given."""
+    """Poisson's ratio for solids: contraction through the thickness when pulled along 2; poisson_12 unless
+    given."""
     angle: Angle | None = Field(default=None, kw_only=True)
-    """Of axis 1 from x towards y: 30 degrees are 0.5236 or "30 deg"; 0 unless given."""
+    """Angle of axis 1 from x towards y: 30 degrees are 0.5236 or "30 deg"; 0 unless given."""
 
     loss_factor: Annotated[float, Real(gt=0, le=LARGEST_LOSS)] | None = Field(default=None, kw_only=True)
-    """η = 2ζ = tan δ = 1/Q, in place of damping_time: with `frequency` one damper a spring, right at that
-    frequency alone; with `band` Maxwell branches that keep it over the band."""
+    """Loss factor η = 2ζ = tan δ = 1/Q, in place of damping_time: with `frequency` one damper a spring, exact
+    at that frequency alone; with `band` Maxwell branches that keep it over the band."""
     frequency: Annotated[Positive, Unit("Hz")] | None = Field(default=None, kw_only=True)
-    """Where one damper a spring has the loss factor: damping_time = loss_factor/(2π frequency)."""
+    """Frequency where one damper a spring has the loss factor: damping_time = loss_factor/(2π frequency)."""
     band: Annotated[tuple[Positive, Positive], Unit("Hz")] | None = Field(default=None, kw_only=True)
-    """[low, high]: where two Maxwell branches a decade keep the loss factor."""
+    """Band [low, high] over which two Maxwell branches a decade keep the loss factor."""
     relaxation: tuple[Relaxation, ...] = Field(default=(), kw_only=True)
     """Maxwell branches, in the order of their times: a Prony series."""
 
     @model_validator(mode="before")
     @classmethod
     def _young_of_constants(cls, data: Any) -> Any:
-        """Young's modulus of small strains from a law's constants, where it is not given; of fibres it and
-        Poisson's ratio, as measures of the material's size."""
+        """Add Young's modulus of small strains from a law's constants, unless given. For fibres, and for a
+        material given by stiffnesses, young and poisson are mere scales."""
         if not isinstance(data, dict):
             return data
-        if data.get("kind") == "stiffness":  # which a scene makes layers of
+        if data.get("kind") == "stiffness":  # a scene replaces it by layers
             return {"young": 1.0, "poisson": 0.0, "density": 1.0, **data}
         if data.get("kind") == "orthotropic":
             given = numbers(data, {key: "" if key == "poisson_12" else "Pa" for key in NEEDED})
@@ -199,7 +206,7 @@ class Material(Fibres):
         given = numbers(data, {key: "Pa" if key in STRESSES else "" for key in ("poisson", *words.keys)})
         poisson, *constants = given.values() or (0.0,)
         young = words.energy(*constants).young(poisson) if constants else 0.0
-        # where it makes no sense `_law_with_its_constants` says why
+        # the fault of impossible constants is reported by `_faults`
         return {**data, "young": young if young > 0.0 else 1.0}
 
     def stiffness(self, key: str) -> np.ndarray:
@@ -223,12 +230,12 @@ class Material(Fibres):
         for key in keys:
             yield key not in own and f"law = '{self.law}': {key} is missing; it takes {', '.join(keys)}"
         if self.law is not None:
-            yield from self._no_rubber(", ".join(f"{key} = {value:g}" for key, value in own.items()))
-        yield from self._no_fibres(self.given(KEYS))
-        yield from self._damped_twice()
+            yield from self._rubber_faults(", ".join(f"{key} = {value:g}" for key, value in own.items()))
+        yield from self._fibre_faults(self.given(KEYS))
+        yield from self._damping_faults()
 
-    def _no_rubber(self, given: str) -> Iterator[object]:
-        """Yield why a material would not be stable at rest, or push where it is pulled far enough."""
+    def _rubber_faults(self, given: str) -> Iterator[object]:
+        """Yield reasons why a law is not stable at rest, or has pressure under a large enough pull."""
         energy, young = self.energy, self.energy.young(self.poisson)
         stable = f"the shear modulus at small strains is {energy.shear:g} Pa; it must be > 0"
         yield energy.shear <= 0.0 and f"{given}: {stable}"
@@ -250,8 +257,8 @@ class Material(Fibres):
             "rubber would push; c2 must be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
         )
 
-    def _no_fibres(self, own: dict[str, float]) -> Iterator[object]:
-        """Yield why the constants of fibres, those that are given, cannot be."""
+    def _fibre_faults(self, own: dict[str, float]) -> Iterator[object]:
+        """Yield reasons why the given constants of fibres are impossible."""
         if self.kind != "orthotropic":
             for key, value in own.items():
                 yield f"{key} = {value:g}: is of kind = 'orthotropic'; say so, or leave it out"
@@ -263,8 +270,8 @@ class Material(Fibres):
             leave = f"{key} = {given:g}: of an orthotropic material {needed} are given; leave {key} out"
             yield abs(given - value) > 1e-9 * abs(value) and leave
 
-    def _damped_twice(self) -> Iterator[object]:
-        """Yield why it cannot be known how the material damps."""
+    def _damping_faults(self) -> Iterator[object]:
+        """Yield reasons why the damping of the material is given twice or incompletely."""
         if self.loss_factor is None:
             yield from (f"{key}: is of a loss_factor; give one" for key in self.given(("frequency", "band")))
         else:
@@ -283,24 +290,24 @@ class Material(Fibres):
 
     @property
     def _keys(self) -> tuple[str, ...]:
-        """The keys of its law's constants."""
+        """Return the keys of the law's constants."""
         return WORDS[self.law or ""].keys if self.law in WORDS else ()
 
     @property
     def ply(self) -> Ply:
-        """Return the ply that a sheet of this material alone is."""
+        """Return the single ply of a sheet that is of this material alone."""
         return Ply(-0.5, 0.5, **in_own_axes(self.given((*KEYS, "young", "poisson", "density"))))
 
     @property
     def dashpot_time(self) -> float:
-        """Coefficient over stiffness [s] of the one damper that every spring has, 0 where it has none."""
+        """Return coefficient over stiffness [s] of the damper that every spring has, 0 without dampers."""
         if self.loss_factor is not None and self.frequency is not None:
             return self.loss_factor / (2.0 * pi * self.frequency)
         return self.damping_time
 
     @property
     def branches(self) -> Branches:
-        """The Maxwell branches, as stiffnesses over the long-time one and times; none for most materials."""
+        """Return the Maxwell branches, stiffnesses over the long-time one and times; empty without any."""
         if self.loss_factor is not None and self.band is not None:
             return constant_loss(self.loss_factor, *self.band)
         rest = 1.0 - sum(branch.share for branch in self.relaxation)
@@ -311,14 +318,15 @@ class Material(Fibres):
 
     @property
     def energy(self) -> Energy:
-        """The energy of its law; of none neo-Hooke's, which has the same small strains."""
+        """Return the energy of the law; without a law neo-Hooke's, which agrees at small strains."""
         if self.law not in WORDS:
             return Energy(self.young / (4.0 * (1.0 + self.poisson)))
         return WORDS[self.law or ""].energy(*(getattr(self, key) for key in self._keys))
 
     def replace(self, **values: Any) -> Self:
-        """Return a copy with other values for some keys; of a law with constants, and of fibres, these follow
-        another young, and young follows other constants. Raises SceneError for what makes no sense."""
+        """Return a copy with other values for some keys. Constants of a law or of fibres are scaled with
+        another `young`, and `young` follows other constants. Raises SceneError for values that are
+        impossible."""
         kinds = {self.kind, values.get("kind", self.kind)}
         scaled, derived = tuple[str, ...](), {"young"}
         if "orthotropic" in kinds:
@@ -336,8 +344,7 @@ class Material(Fibres):
 
 
 def limit_note(material: Material) -> str:
-    """Return a sentence on the limit of the material's law, for an answer that what is prescribed may rule
-    out."""
+    """Return a sentence on the limit of Gent's law, for an answer that prescribed motions may rule out."""
     return (
         f"the law 'gent' lets no load bring I1 - 3 to its limit = {material.limit:g}, as what is prescribed "
         "here may do: move the supports less, or give a larger limit"
@@ -345,7 +352,7 @@ def limit_note(material: Material) -> str:
 
 
 def require_no_branches(material: Material, who: str) -> None:
-    """Raise BadInput for a material with Maxwell branches, which `who`, a model or a file, does not have."""
+    """Raise BadInput for a material with Maxwell branches, which a model or file, `who`, does not have."""
     if material.branches.times:
         key = "band" if material.band else "relaxation"
         remedy = "give a frequency in place of the band" if material.band else "give a damping_time"

@@ -3,16 +3,17 @@
     python mesh_reader.py FILE FORMAT
 
 Standard output is an archive of NumPy's with `points` (n, 2 or 3) and, of a mesh, `triangle` (k, 3) and
-`quad` (m, 4), numbers of points from 0; of a drawing `rings` (r,), the number of points of its outline and of
-each hole, and `unit` (1,), what the file says its unit is [m]. Exit status 2 with a line on standard error
-says why there is none. It imports nothing of ours, so that it starts within a fifth of a second.
+`quad` (m, 4), numbers of points from 0; of a drawing `rings` (r,), the numbers of points of its outline and
+of each hole, and `unit` (1,), the file's unit [m]. On failure the exit status is 2, and a line on standard
+error gives the reason. No module of sheetbench is imported, so that the program starts within 0.2 s.
 
-Wavefront OBJ is read here: of its lines those of places (v) and faces (f), whose corners may also number
-texture places and normals, as 3/1/7, and count back from the last place, as -1. Faces of more than four
-corners are cut into triangles about one of them.
+Wavefront OBJ is parsed here: the lines of places (v) and of faces (f), whose corners may also number texture
+places and normals, as 3/1/7, and count back from the last place, as -1. Faces of more than four corners are
+cut into triangles about one of them.
 
 A drawing's lines, arcs and curves are joined into rings where their ends meet; the largest ring is the
-outline, those within it are holes. Curves become corners that are off by SAGITTA of the drawing at most.
+outline, the rings within it are holes. Curves become polygons with a sagitta of SAGITTA of the drawing's
+size at most.
 """
 
 import sys
@@ -35,8 +36,8 @@ NO_OUTLINE = ("TEXT", "MTEXT", "ATTDEF", "ATTRIB", "DIMENSION", "LEADER", "MULTI
 
 
 def read(path: Path, kind: str) -> dict[str, np.ndarray]:
-    """Return the arrays of a file of one of meshio's formats, or of those here. Raises ValueError with a
-    clause."""
+    """Return the arrays of a file in a format of meshio or of this module. Raises ValueError with a clause on
+    the reason."""
     if kind == "obj":
         return _obj(path)
     if kind not in DRAWINGS:
@@ -48,7 +49,7 @@ def read(path: Path, kind: str) -> dict[str, np.ndarray]:
         raise ValueError(f"reading it needs {module}: pip install 'sheetbench[drawings]'") from None
     except ValueError:
         raise
-    except Exception as error:  # of these two libraries, of any kind
+    except Exception as error:  # ezdxf and svgelements raise errors of any kind
         raise ValueError(f"{module} cannot read it: {type(error).__name__} {_line(str(error))}") from None
 
 
@@ -61,11 +62,11 @@ def _by_meshio(path: Path, kind: str) -> dict[str, np.ndarray]:
     try:
         with redirect_stdout(printed), redirect_stderr(printed):  # it prints, and ends the process
             mesh = meshio.read(path, kind)
-        found: dict[str, np.ndarray] = {"points": np.asarray(mesh.points, dtype=float)}
+        arrays: dict[str, np.ndarray] = {"points": np.asarray(mesh.points, dtype=float)}
         for name, corners in CORNERS.items():
             blocks = [b.data for b in mesh.cells if b.type.rstrip("0123456789") == name and len(b.data)]
             if blocks:
-                found[name] = np.concatenate([np.asarray(block)[:, :corners] for block in blocks])
+                arrays[name] = np.concatenate([np.asarray(block)[:, :corners] for block in blocks])
     except MemoryError:
         raise ValueError("reading it takes more memory than a mesh may") from None
     except SystemExit:
@@ -74,10 +75,10 @@ def _by_meshio(path: Path, kind: str) -> dict[str, np.ndarray]:
         raise ValueError(f"it names {error.args[0]}, which the file does not have") from None
     except Exception as error:
         raise ValueError(f"meshio cannot read it: {type(error).__name__} {_line(str(error))}") from None
-    if len(found) == 1:
+    if len(arrays) == 1:
         kinds = ", ".join(list(dict.fromkeys(block.type for block in mesh.cells))[:SHOWN]) or "none"
         raise ValueError(f"no triangles and no quadrilaterals; its cells: {kinds}")
-    return found
+    return arrays
 
 
 def _obj(path: Path) -> dict[str, np.ndarray]:
@@ -101,14 +102,14 @@ def _obj(path: Path) -> dict[str, np.ndarray]:
                     faces["triangle"] += _cut(corners, points)
         except ValueError:
             raise ValueError(f"line {number}: {line.strip()[:40]!r} is no {word} of Wavefront OBJ") from None
-    found = {name: np.array(corners) for name, corners in faces.items() if corners}
-    if not found:
+    cells = {name: np.array(corners) for name, corners in faces.items() if corners}
+    if not cells:
         raise ValueError("no faces")
-    return {"points": np.array(points).reshape(-1, 3), **found}
+    return {"points": np.array(points).reshape(-1, 3), **cells}
 
 
 def _cut(corners: list[int], points: list[list[float]]) -> list[list[int]]:
-    """Cut a face into triangles about the corner that leaves the smallest of them as large as can be."""
+    """Cut a face into triangles about the corner for which the smallest triangle is largest."""
     if len(corners) == 3 or max(corners) >= len(points):
         return [corners[:3]]
 
@@ -178,8 +179,8 @@ def _rings(lines: list[np.ndarray], unit: float) -> dict[str, np.ndarray]:
         raise ValueError("it draws no lines")
     size = float(np.ptp(np.concatenate(lines), axis=0).max())
     ends = np.concatenate([line[[0, -1]] for line in lines])
-    alike = ends[[min(near) for near in cKDTree(ends).query_ball_point(ends, JOINED * size)]]
-    for line, (start, end) in zip(lines, alike.reshape(-1, 2, 2), strict=True):
+    joined = ends[[min(near) for near in cKDTree(ends).query_ball_point(ends, JOINED * size)]]
+    for line, (start, end) in zip(lines, joined.reshape(-1, 2, 2), strict=True):
         line[0], line[-1] = start, end
     faces = shapely.get_parts(shapely.polygonize([shapely.LineString(line) for line in lines]))
     if not len(faces):
@@ -200,7 +201,7 @@ DRAWINGS = {"dxf": ("ezdxf", _dxf), "svg": ("svgelements", _svg)}
 
 
 def _includes(path: Path) -> bool:
-    """Whether a line is what meshio takes for *INCLUDE."""
+    """Return whether meshio reads a line of the file as *INCLUDE."""
     with path.open(errors="replace") as file:
         return any(line.partition(",")[0].strip().replace("*", "").upper() == "INCLUDE" for line in file)
 

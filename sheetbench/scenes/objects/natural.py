@@ -1,8 +1,8 @@
-"""What makes a sheet other than flat at rest: natural strains and curvatures, temperatures.
+"""Natural strains and curvatures and temperatures, by which a sheet is not flat and free of stress at rest.
 
-A part of the sheet that nothing else held would at the height z over the mid-surface have the stretch
-U = 1 + e0 − z k0 (2 × 2, symmetric), so that k0 > 0 curls it towards +z. A rise of temperature ΔT + z ΔT′
-gives what the layers' own stresses, with C, α of each, would bring about if nothing held them:
+A free part of the sheet has the stretch U = 1 + e0 − z k0 (2 × 2, symmetric) at the height z over the
+mid-surface, so that k0 > 0 curls it towards +z. Strain and curvature of a rise of temperature ΔT + z ΔT′
+follow from zero forces and moments of the layers, with C, α of each:
 
     ∫ C (e0 − z k0 − α (ΔT + z ΔT′)) (1, z) dz = 0;    of one layer e0 = α ΔT,   k0 = −α ΔT′.
 
@@ -22,14 +22,14 @@ NOTHING = (0.0, 0.0, 0.0)
 
 
 class Natural(Loading):
-    """Strain and curvature that the sheet, or a patch of it, would have if nothing held it."""
+    """Strain and curvature of the free sheet, or of a free patch of it."""
 
     strain: Annotated[Vector3, Unit("")] = NOTHING
     """[exx, eyy, exy] of the mid-surface; > 0 is longer than drawn."""
     curvature: Annotated[Vector3, Unit("1/m")] = NOTHING
     """[kxx, kyy, kxy]; > 0 curls the sheet towards +z."""
     pretension: Annotated[tuple[Number, Number], Unit("N/m")] | None = Field(default=None, kw_only=True)
-    """In place of strain: [Nx, Ny] that stretch the sheet as long as it is held where it is drawn."""
+    """In place of strain: forces per length [Nx, Ny] of the sheet held at its drawn size."""
 
     def _faults(self) -> Iterator[object]:
         yield self.pretension and any(self.strain) and "strain and pretension: give one of them"
@@ -39,9 +39,9 @@ class Natural(Loading):
 
 
 class Temperature(Loading):
-    """How much warmer the sheet is than where it is flat and free of stress (`expansion`)."""
+    """Temperature above the one at which the sheet is flat and free of stress (`expansion`)."""
 
     change: Annotated[Number, Unit("K")] = 0.0
-    """In the middle of the thickness; > 0 is warmer."""
+    """Difference in the middle of the thickness; > 0 is warmer."""
     gradient: Annotated[Number, Unit("K/m")] = 0.0
-    """Along z: > 0 is warmer on the upper face."""
+    """Gradient along z; > 0 is warmer on the upper face."""

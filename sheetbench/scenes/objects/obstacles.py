@@ -23,11 +23,11 @@ class _Obstacle(Frozen):
     position: Annotated[Vector3, Unit("m")]
     """A point of the plane, the sphere's centre, a point of the cylinder's axis."""
     motion: Motion | None = Field(default=None, kw_only=True)
-    """How the obstacle moves over time; statics bring it to its last place as the load grows."""
+    """How the obstacle moves over time; at rest it stands where its motion ends."""
     friction: NonNegative = Field(default=0.0, kw_only=True)
     """Coefficient of friction, in motion only."""
     contact_damping: Annotated[NonNegative, Unit("s/m")] = Field(default=0.0, kw_only=True)
-    """τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
+    """Time τ, in motion only: the pressure is k d (1 + τ ḋ) at a depth d; a part of the sheet that meets the
     obstacle at a speed v ≪ 1/τ leaves it at about (1 − 2 τ v/3) v."""
 
     def _faults(self) -> Iterator[object]:
@@ -41,7 +41,7 @@ class _Obstacle(Frozen):
         return np.asarray(along / (np.linalg.norm(along) or 1.0))
 
     def place(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
-        """Return its position (3,) [m] after a share of its way: at a time [s], or at last."""
+        """Return the obstacle's position (3,) [m] after a share of its way: at a time [s], or at last."""
         moved = np.zeros(3) if self.motion is None else self.motion.course.at(time)
         return np.asarray(self.position + load_factor * moved)
 
@@ -55,7 +55,7 @@ class Plane(_Obstacle):
 
     kind: Literal["plane"] = Field(default="plane", kw_only=True)
     normal: Vector3 = (0.0, 0.0, 1.0)
-    """Out of the obstacle, towards the sheet, of any length."""
+    """Direction out of the obstacle, towards the sheet, of any length."""
 
     radius: ClassVar[float] = math.inf
 
@@ -65,7 +65,7 @@ class Sphere(_Obstacle):
 
     kind: Literal["sphere"] = Field(default="sphere", kw_only=True)
     radius: Length
-    """Of the ball."""
+    """Radius of the ball."""
 
 
 class Cylinder(_Obstacle):
@@ -73,9 +73,9 @@ class Cylinder(_Obstacle):
 
     kind: Literal["cylinder"] = Field(default="cylinder", kw_only=True)
     axis: Vector3
-    """Along the bar, of any length."""
+    """Direction along the bar, of any length."""
     radius: Length
-    """Of the bar."""
+    """Radius of the bar."""
 
 
 AnyObstacle = Plane | Sphere | Cylinder

@@ -1,12 +1,12 @@
-"""Orthotropic materials: the constants of a ply in its own axes, and which of them can be.
+"""Orthotropic materials: the constants of a ply in its own axes, and the conditions that they must satisfy.
 
 Axis 1 lies in the plane at an `angle` [rad] from x towards y, axis 2 across it in the plane, axis 3 is the
-normal. With ν₂₁ = ν₁₂ E₂/E₁ the compliances are
+normal. The compliances are, with ν₂₁ = ν₁₂ E₂/E₁,
 
     ε₁ = σ₁/E₁ − ν₁₂ σ₂/E₁ − ν₁₃ σ₃/E₁,   ε₂ = −ν₁₂ σ₁/E₁ + σ₂/E₂ − ν₂₃ σ₃/E₂,   γ_ij = τ_ij/G_ij.
 
-Their energy is positive where all moduli are and 1 − ν₁₂² E₂/E₁ > 0, of a sheet whose normal stress is 0; in
-space the 3 × 3 matrix of 1/E and ν/E must be positive definite.
+The energy of a sheet without normal stress is positive if all moduli are and 1 − ν₁₂² E₂/E₁ > 0; in space the
+3 × 3 matrix of 1/E and ν/E must be positive definite.
 Source: R. M. Jones, Mechanics of Composite Materials (1999), 2.3 and 2.4.
 """
 
@@ -31,11 +31,11 @@ class Fibres(Frozen):
     """The constants of a material or a layer with fibres, in its plane and across it."""
 
     young_1: Modulus | None = Field(default=None, kw_only=True)
-    """Young's modulus along axis 1, that of the fibres: orthotropic."""
+    """Young's modulus along axis 1, the direction of the fibres: orthotropic."""
     young_2: Modulus | None = Field(default=None, kw_only=True)
     """Young's modulus across them, in the plane: orthotropic."""
     poisson_12: Number | None = Field(default=None, kw_only=True)
-    """How much it contracts along 2 where it is pulled along 1; its square is below young_1/young_2."""
+    """Poisson's ratio: contraction along 2 when pulled along 1; its square is below young_1/young_2."""
     shear_12: Modulus | None = Field(default=None, kw_only=True)
     """Shear modulus in the plane: orthotropic."""
     shear_13: Modulus | None = Field(default=None, kw_only=True)
@@ -49,13 +49,13 @@ class Fibres(Frozen):
 
     @property
     def expansions(self) -> tuple[float, float] | None:
-        """Return the expansion along axis 1 and across it, if it is given."""
+        """Return the expansion along axis 1 and across it [1/K], None if it is not given."""
         return self.expansion if isinstance(self.expansion, tuple | None) else 2 * (self.expansion,)
 
 
 class Ply(NamedTuple):
-    """low, high: where it begins and ends, −½ to ½ of the thickness; its constants, and the angle [rad] of
-    axis 1 from x; density [kg/m³]: numbers, or arrays of points or cells."""
+    """A ply of a laminate. low, high: heights of its faces over the thickness, −½ to ½. Constants, angle
+    [rad] of axis 1 from x and density [kg/m³] are numbers, or arrays over points or cells."""
 
     low: float
     high: float
@@ -73,8 +73,9 @@ class Ply(NamedTuple):
 
 
 def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the constants of a ply that keys of a material, patch or layer mean: what is left out of an
-    orthotropic material's is that of another axis, and E and ν are an isotropic one's."""
+    """Return the constants of a ply from the keys of a material, patch or layer. A missing constant of an
+    orthotropic material is taken from another axis; `young` and `poisson` are the constants of an isotropic
+    material."""
     constants = {key: value for key, value in own.items() if key in Ply._fields}
     if "young_1" in own:
         shear, poisson = dict.fromkeys(("shear_13", "shear_23"), own["shear_12"]), own["poisson_12"]
@@ -89,15 +90,14 @@ def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def like_isotropic(given: Mapping[str, float]) -> tuple[float, float]:
-    """Return E = √(E₁ E₂) and ν = √(ν₁₂ ν₂₁), a measure of an orthotropic material's size where one number is
-    wanted; of no model's stiffness."""
+    """Return E = √(E₁ E₂) and ν = √(ν₁₂ ν₂₁), scales of an orthotropic material that no model solves with."""
     young = (given["young_1"] * given["young_2"]) ** 0.5
     poisson = given["poisson_12"] * (given["young_2"] / given["young_1"]) ** 0.5
     return young, min(max(poisson, -LARGEST_POISSON), LARGEST_POISSON)
 
 
 def impossible(given: Mapping[str, Any]) -> str:
-    """Return why an orthotropic material's constants, those that are given, cannot be, "" where they can."""
+    """Return the reason why an orthotropic material's given constants are impossible, "" if possible."""
     if missing := [key for key in NEEDED if key not in given]:
         return f"{KIND}: {', '.join(missing)} missing; it takes {', '.join(NEEDED)}"
     poisson, ratio = given["poisson_12"], given["young_1"] / given["young_2"]
@@ -111,7 +111,7 @@ def impossible(given: Mapping[str, Any]) -> str:
 
 
 def impossible_in_space(ply: Ply) -> str:
-    """Return why a ply's constants with those of the third axis cannot be, "" where they can."""
+    """Return the reason why a ply's constants of all three axes are impossible, "" if they are possible."""
     e1, e2, e3, n12, n13, n23 = ply[2:8]
     compliance = np.array(
         [

@@ -17,19 +17,19 @@ class Patch(Frozen):
     """A part of the sheet with a thickness or material constants of its own."""
 
     shape: Shape
-    """Where: a rectangle, a circle or a polygon."""
+    """The part: a rectangle, a circle or a polygon."""
     thickness: Length | None = None
-    """Half of it above and half below the mid-surface; the sheet's unless given."""
+    """Thickness, half of it above and half below the mid-surface; the sheet's unless given."""
     young: Modulus | None = None
     """Young's modulus; the material's unless given."""
     poisson: PoissonRatio | None = None
     """Poisson's ratio; the material's unless given."""
     density: Density | None = None
-    """The material's unless given."""
+    """Density; the material's unless given."""
     angle: Angle | None = Field(default=None, kw_only=True)
-    """Of an orthotropic material's axis 1 from x towards y; the material's unless given."""
+    """Angle of an orthotropic material's axis 1 from x towards y; the material's unless given."""
     natural: Natural | None = Field(default=None, kw_only=True)
-    """Natural strain and curvature in place of the sheet's, there."""
+    """Natural strain and curvature of the part, in place of the sheet's."""
 
     def _faults(self) -> Iterator[object]:
         yield not self.own and not self.natural and f"needs one of {', '.join((*CONSTANTS, 'natural'))}"
@@ -38,12 +38,12 @@ class Patch(Frozen):
 
     @property
     def own(self) -> dict[str, float]:
-        """The constants that are its own."""
+        """Return the constants that the patch gives itself."""
         return self.given(CONSTANTS)
 
 
 def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
-    """Why a patch cannot be where it is or as thick as it is, "" where all can."""
+    """Return the reason why a patch is off the sheet or too thick, "" if no patch is."""
     import shapely
 
     plan = shapely.box(0.0, 0.0, *sheet.lengths)
@@ -59,7 +59,7 @@ def misplaced(patches: tuple[Patch, ...], sheet: Sheet) -> str:
 
 
 def mismatched(patches: tuple[Patch, ...], material: Material) -> str:
-    """Why a patch's constants are not of the sheet's kind of material, "" where all are."""
+    """Return the reason why a patch's constants do not suit the sheet's kind of material, "" if all do."""
     for number, patch in enumerate(patches, start=1):
         if material.kind == "isotropic" and patch.angle is not None:
             return f"patch {number}.angle = {patch.angle:g}: is of a material of kind = 'orthotropic'"

@@ -1,14 +1,14 @@
-"""A mesh of one's own of a sheet's plan: quadrilaterals, from a file or as numbers.
+"""A user's mesh of a sheet's plan: quadrilaterals, from a file or as numbers.
 
 [sheet] mesh = "fin.msh"     its path relative to the scene's file
 
-Of the file's cells those that cover areas count, by their corners alone: sides are straight. Where there are
+The file's triangles and quadrilaterals are used, by their corners alone: sides are straight. If there are
 triangles, each is cut into three quadrilaterals and each quadrilateral into four. The outline and the holes
 of the sheet are the mesh's boundary. A scene keeps the numbers, and no longer needs the file.
 
-The file may be another person's: it is read within limits and its numbers are checked. Readers of some
-formats do not end on damaged files, or open other files: formats are those of a list, and reading is a
-program of its own (`mesh_reader`) with limits of time and memory.
+The file is not trusted: it is read within limits and its numbers are checked. Readers of some formats do not
+end on damaged files, or open other files: only listed formats are allowed, and reading is a program of its
+own (`mesh_reader`) with limits of time and memory.
 """
 
 import sys
@@ -71,23 +71,23 @@ class PlanMesh(Frozen):
         area = shapely.area(shapely.polygons(corners)).sum()
         over = abs(self.area.area - area) > ROUNDING * area or count.max() > 2
         yield over and "elements lie over each other"
-        apart = abs(self.area.length - length) > ROUNDING * length
-        yield apart and "elements touch without sharing corners: merge what lies at one place"
+        unshared = abs(self.area.length - length) > ROUNDING * length
+        yield unshared and "elements touch without sharing corners: merge what lies at one place"
 
     @property
     def arrays(self) -> tuple[np.ndarray, np.ndarray]:
-        """Points (n, 2) [m] and quadrilaterals (m, 4)."""
+        """Return points (n, 2) [m] and quadrilaterals (m, 4)."""
         return np.array(self.points), np.array(self.quads)
 
     @property
     def across(self) -> int:
-        """Elements of the mean size along the shorter side."""
+        """Return the number of elements of the mean size along the shorter side."""
         size = np.sqrt(self.area.area / len(self.quads))
         return max(1, round(np.ptp(self.arrays[0], axis=0).min() / size))
 
     @cached_property
     def area(self) -> "Polygon":
-        """What it covers, as shapely has it; of a mesh in pieces several polygons."""
+        """Return the covered area as a polygon of shapely, several polygons if the mesh is in pieces."""
         import shapely
 
         points, quads = self.arrays
@@ -96,22 +96,22 @@ class PlanMesh(Frozen):
 
 
 def read_file(path: Path, formats: Mapping[str, str] = FORMATS) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Return points (n, 2 or 3), and what else `mesh_reader` finds: corners of triangles (k, 3) and
-    quadrilaterals (m, 4) by kind, or a drawing's rings and unit.
+    """Return points (n, 2 or 3), and the other arrays of `mesh_reader` by their names.
 
-    formats: the reader's, by the endings of names. Raises ValueError with a clause that says what is wrong.
+    They are corners of triangles (k, 3) and quadrilaterals (m, 4), or a drawing's rings and unit. formats:
+    the reader's names of formats by the endings of files. Raises ValueError with a clause on the reason.
     """
     kind = formats.get(path.suffix.lower())
     if kind is None:
-        known, what = ", ".join(formats), "mesh" if formats is FORMATS else "drawing"
+        endings, subject = ", ".join(formats), "mesh" if formats is FORMATS else "drawing"
         more = ": convert it, as with meshio convert" * (formats is FORMATS)
-        raise ValueError(f"a {what} file's name ends in one of {known}{more}")
+        raise ValueError(f"a {subject} file's name ends in one of {endings}{more}")
     if not path.is_file():
         raise ValueError("no such file")
     size = path.stat().st_size
     if size > LARGEST:
         raise ValueError(f"larger than {LARGEST // 2**20} MB, which no such file is")
-    # -P: the modules beside the program are not its own
+    # -P: the program does not import modules of its folder
     command = [sys.executable, "-P", mesh_reader.__file__, str(path), kind]
     seconds = SECONDS + PER_MB * size // 2**20
     ended = run(command, b"", seconds, MEMORY_MB, most=LARGEST, variables=ONE_THREAD)
@@ -125,8 +125,8 @@ def read_file(path: Path, formats: Mapping[str, str] = FORMATS) -> tuple[np.ndar
 
 
 def mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
-    """Return the mesh of plan points (n, 2) [m] and of polygons of 3 and of 4 corners. Raises ValueError
-    where these name points that are not there or not finite."""
+    """Return the mesh of plan points (n, 2) [m] and of polygons of 3 and of 4 corners. Raises ValueError if a
+    corner names a point that is missing or not finite."""
     for kind, corners in cells.items():
         if corners.dtype.kind not in "iu":
             raise ValueError(f"a {kind}'s corners are no whole numbers")
@@ -146,7 +146,7 @@ def mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
 
 
 def divided(points: np.ndarray, polygons: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 2) [m] and quadrilaterals (m, 4) of polygons (k, c), each cut into c about its middle."""
+    """Cut polygons (k, c) about their middles into quadrilaterals (m, 4) of points (n, 2) [m]."""
     sides = [np.stack([one, np.roll(one, -1, axis=1)], axis=-1) for one in polygons]
     ends, which = np.unique(
         np.sort(np.concatenate([side.reshape(-1, 2) for side in sides]), axis=1), axis=0, return_inverse=True

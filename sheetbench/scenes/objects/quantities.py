@@ -1,11 +1,11 @@
 """Validated numbers with their units, and the frozen base of every scene object. All are in SI units.
 
-No number is larger than `LARGEST` in magnitude, and what must be positive not smaller than `SMALLEST`: beyond
-them nothing is meant, and the products and quotients of the mechanics would overflow.
+No number is larger than `LARGEST` in magnitude, and no positive number smaller than `SMALLEST`: numbers
+beyond them are slips, and the products and quotients of the mechanics would overflow.
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from inspect import Parameter, Signature
+from inspect import Parameter, Signature, cleandoc
 from math import isfinite
 from typing import (
     Annotated,
@@ -31,6 +31,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from sheetbench.errors import BadInput, SceneError, WrongArgument
+from sheetbench.scenes.language.docstrings import Documented
 from sheetbench.scenes.language.refusals import in_one_line
 from sheetbench.scenes.language.schema import sentences
 from sheetbench.scenes.language.units import converted
@@ -63,9 +64,9 @@ def _not_too_small(value: float) -> float:
 
 
 class Real:
-    """A finite number, no text, within bounds (`gt`, `ge`, `lt`, `le`), and what else is checked of it: its
-    schema at once, of which pydantic would apply every part anew wherever one stands. hint: what to write in
-    place of a number beyond the bounds; it stands in the JSON Schema."""
+    """A finite number, no text, within bounds (`gt`, `ge`, `lt`, `le`), with a further check. It makes its
+    schema as a whole: pydantic would apply each part of an annotation anew at every use. hint: a value to
+    write in place of a number beyond the bounds, for the JSON Schema."""
 
     def __init__(self, check: Callable[[float], float] | None = None, hint: str = "", **bounds: Any):
         self.check, self.hint, self.bounds = check, hint, bounds
@@ -93,7 +94,7 @@ def _form(value: Any) -> str:
 
 
 class Forms:
-    """Of a key that takes a number, a list or a table: what is wrong is said of that which the value is."""
+    """Mark of a key that takes a number, a list or a table: a fault refers to the form that the value has."""
 
     NAMES: ClassVar[dict[Any, str]] = {Annotated: "a number", tuple: "a list", None: "a table"}
 
@@ -124,17 +125,20 @@ Angle = Annotated[Number, Unit("rad")]
 Modulus = Annotated[Positive, Unit("Pa")]
 Density = Annotated[Positive, Unit("kg/m³")]
 VOLUME_KEPT = "write 0.4999 for a material that keeps its volume"
-PoissonRatio = Annotated[float, Real(hint=VOLUME_KEPT, gt=-1, lt=0.5)]  # of what is isotropic
+PoissonRatio = Annotated[float, Real(hint=VOLUME_KEPT, gt=-1, lt=0.5)]  # of isotropic materials
+
+
+METACLASS: Any = {"metaclass": Documented}  # which type checkers need not see
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(Field,))
-class Frozen(BaseModel, frozen=True):
+class Frozen(BaseModel, frozen=True, **METACLASS):
     """Base of the scene objects: immutable, and unknown keys are refused.
 
-    A sentence below each key says what it is and which sign it has; the JSON Schema, the reference page
-    (docs/scene.md) and the files that `sheetbench new` writes are made of these. Objects built with values
-    that make no sense raise SceneError, in one line; values without a name are the keys in their order, but
-    for those that are keyword-only (`kind`, `title`, `history`, `motion`).
+    A sentence below each key gives its meaning and its sign; docstrings, the JSON Schema, the reference page
+    (docs/scene.md) and the files that `sheetbench new` writes are made of the sentences. Impossible values
+    raise SceneError, in one line. Values without a name stand for the keys in their order, without
+    keyword-only ones (`kind`, `title`, `history`, `motion`).
     """
 
     model_config = ConfigDict(extra="forbid", populate_by_name=True)
@@ -151,13 +155,13 @@ class Frozen(BaseModel, frozen=True):
             kind = WrongArgument if wrong else SceneError
             raise kind(f"{type(self).__name__}: {in_one_line(error, type(self))}") from None
 
-    # what is read from a file or lies within another object is built without the above, so that the whole
+    # an object read from a file, or within another object, is built without the above, so that the whole
     # scene's faults are reported together
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
     @classmethod
     def __pydantic_init_subclass__(cls, **options: Any) -> None:
-        cls.__signature__ = _Keys()  # type: ignore[assignment]  # made when it is looked at
+        cls.__signature__ = _Keys()  # type: ignore[assignment]  # made when it is read
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise SceneError(
@@ -166,7 +170,7 @@ class Frozen(BaseModel, frozen=True):
         )
 
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
-        """What differs from the usual, as it would be written."""
+        """Yield the keys whose values are not the defaults."""
         for name, field in type(self).model_fields.items():
             if (value := getattr(self, name)) != field.get_default(call_default_factory=True):
                 yield name, value
@@ -175,8 +179,8 @@ class Frozen(BaseModel, frozen=True):
         return repr(self)
 
     def _faults(self) -> Iterator[object]:
-        """Yield what is wrong with the values beside each other, in sentences, the first of which is said;
-        what is false where nothing is."""
+        """Yield sentences on values that contradict each other; false values are ignored. The first sentence
+        is reported."""
         yield from ()
 
     @model_validator(mode="after")
@@ -186,11 +190,11 @@ class Frozen(BaseModel, frozen=True):
         return self
 
     def given(self, names: Iterable[str]) -> dict[str, Any]:
-        """Return the values of these keys that are not None."""
+        """Return the values of some keys, without None."""
         return {name: value for name in names if (value := getattr(self, name)) is not None}
 
     def replace(self, **values: Any) -> Self:
-        """Return a copy with other values for some keys. Raises SceneError for what makes no sense."""
+        """Return a copy with other values for some keys. Raises SceneError for impossible values."""
         fields = type(self).model_fields.items()
         kept = {name: value for name, one in fields if (value := getattr(self, name)) is not one.default}
         return type(self)(**{**kept, **values})
@@ -198,7 +202,9 @@ class Frozen(BaseModel, frozen=True):
     @classmethod
     def __get_pydantic_json_schema__(cls, core: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         schema = handler(core)
-        keys = handler.resolve_ref_schema(schema).get("properties", {})
+        table = handler.resolve_ref_schema(schema)
+        keys = table.get("properties", {})
+        table["description"] = cleandoc(vars(cls)["__doc__"] or "")
         for name, field in cls.model_fields.items():  # pydantic would read the sources at every import
             if name in (texts := sentences(cls)):
                 keys[field.validation_alias or name]["description"] = texts[name]
@@ -206,7 +212,7 @@ class Frozen(BaseModel, frozen=True):
 
 
 class _Keys:
-    """The keys of an object as `help` shows them, without bounds; first those that need no name."""
+    """Descriptor of a class's signature: its keys without bounds, the positional ones first."""
 
     def __get__(self, one: Any, kind: type[BaseModel]) -> Signature:
         fields = kind.model_fields

@@ -6,18 +6,19 @@ with shares g_i of the instantaneous modulus E₀, as in the Prony series of Aba
 
     E'/E∞ = 1 + Σ a_i x²/(1 + x²),    E''/E∞ = Σ a_i x/(1 + x²),    x = ω τ_i,    η = E''/E'
 
-a_i = E_i/E∞. That η is constant, Σ a_i (x − η x²)/(1 + x²) = η, is linear in a_i: nonnegative least squares
-over the band, each equation over E' of the solution before, so that errors of η are relative. Times lie
-evenly on a logarithmic scale, two a decade and at least two, from just below 1/ω_high to just above 1/ω_low.
+a_i = E_i/E∞. A constant η, Σ a_i (x − η x²)/(1 + x²) = η, is a condition linear in a_i: it is solved by
+nonnegative least squares over the band, each equation divided by E' of the previous solution, so that errors
+of η are relative. Times lie evenly on a logarithmic scale, two a decade and at least two, from just below
+1/ω_high to just above 1/ω_low.
 
-In motion, beside X = (elastic stress s, strain e) at m places, every branch of stiffness a keeps R, adds the
+For motion, at m places with X = (elastic stress s, strain e), every branch of stiffness a keeps R, adds the
 stress a R_s and stores ½ a R_s·R_e:
 
     Ṙ + R/τ = Ẋ,    which in a step of length h is    R = w X + c,    w = (1 − β) τ/h,   β = exp(−h/τ),
     c = β R₀ − w X₀,
 
 of second order, exact where X is linear in time. Source: Simo and Hughes, Computational Inelasticity (1998),
-10.3. What is remembered is a `memory` (1 + b, 2, m): X, then R of every branch.
+10.3. The state between steps is a `memory` (1 + b, 2, m): X, then R of every branch.
 """
 
 from functools import cache
@@ -37,18 +38,18 @@ SAMPLES, SWEEPS = 100, 6
 
 
 class Relaxation(Frozen):
-    """A Maxwell branch of every spring and every modulus: a share of the stiffness that fades."""
+    """A Maxwell branch of every spring and every modulus: a share of the stiffness that relaxes."""
 
     share: Annotated[float, Real(gt=0, lt=1)]
-    """The branch's part of the instantaneous modulus; all of them add up to less than 1, and `young` is what
-    is left in the end."""
+    """The branch's part of the instantaneous modulus; the shares add up to less than 1, and `young` is the
+    modulus left in the end."""
     time: Annotated[Positive, Unit("s")]
-    """Relaxation time τ: what the branch resists fades as exp(−t/τ)."""
+    """Relaxation time τ: the branch's stress fades as exp(−t/τ)."""
 
 
 class BranchStep(NamedTuple):
-    """Branches within a step or stage: weights w (b,) and constants c (b, 2, m); gain: 1 + Σ a w, by which
-    the elastic stress counts; past: Σ a c_s (m,), the stress beside it."""
+    """Branches within a step or stage: R = w X + c of each. weight: w (b,). constant: c (b, 2, m). gain: 1 +
+    Σ a w, the factor of the elastic stress. past: Σ a c_s (m,), the stress added to it."""
 
     weight: np.ndarray
     constant: np.ndarray
@@ -68,22 +69,22 @@ class Branches(NamedTuple):
 
     @property
     def shares(self) -> np.ndarray:
-        """Shares of the instantaneous modulus (n,)."""
+        """Return the shares of the instantaneous modulus (n,)."""
         return np.array(self.stiffness) / (1.0 + sum(self.stiffness))
 
     def storage_and_loss(self, frequency: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
-        """E'/E∞ and E''/E∞ at frequencies [Hz]."""
+        """Return E'/E∞ and E''/E∞ at frequencies [Hz]."""
         x = 2.0 * pi * np.asarray(frequency, dtype=float)[..., None] * np.array(self.times)
         k = np.array(self.stiffness)
         return 1.0 + (x * x / (1.0 + x * x)) @ k, (x / (1.0 + x * x)) @ k
 
     def pole(self, omega: float, damping_time: float = 0.0, damping_rate: float = 0.0) -> complex:
-        """Return s [1/s] of a mode of the long-time stiffness at ω [rad/s], beside one damper:
+        """Return the root s [1/s] of a mode whose long-time stiffness gives ω [rad/s], with dampers:
 
             s² + damping_rate s + ω² (E(s)/E∞ + damping_time s) = 0,
 
-        an eigenvalue of ω q, q̇ and ω times the strains of the branches' springs; the slowest of a mode that
-        does not swing.
+        an eigenvalue of ω q, q̇ and ω times the strains of the branches' springs; if the mode does not swing,
+        its slowest root.
         """
         size = 2 + len(self.times)
         rates = np.zeros((size, size))
@@ -107,7 +108,7 @@ class Branches(NamedTuple):
         return self.begun(weight, np.exp(-x)[:, None, None] * memory[1:] - weight[:, None, None] * memory[0])
 
     def at_rest(self, x: np.ndarray) -> np.ndarray:
-        """Return the memory at X (2, m) where all has relaxed."""
+        """Return the memory at X (2, m) after full relaxation."""
         return np.concatenate([x[None], np.zeros((len(self.times), *x.shape))])
 
     def stored(self, memory: np.ndarray) -> float:
@@ -115,8 +116,8 @@ class Branches(NamedTuple):
         return 0.5 * float(np.array(self.stiffness) @ (memory[1:, 0] * memory[1:, 1]).sum(axis=1))
 
     def dissipated(self, before: np.ndarray, after: np.ndarray) -> float:
-        """Return the energy [J] that the branches take from one memory to the next: the work of their mean
-        stresses less what they store more."""
+        """Return the energy [J] that the branches dissipate from one memory to the next. It is the work of
+        their mean stresses less the increase of their stored energy."""
         mean = 0.5 * np.tensordot(np.array(self.stiffness), before[1:, 0] + after[1:, 0], 1)
         work = float(mean @ (after[0, 1] - before[0, 1]))
         return work - self.stored(after) + self.stored(before)
@@ -124,8 +125,8 @@ class Branches(NamedTuple):
 
 @cache
 def constant_loss(loss_factor: float, low: float, high: float) -> Branches:
-    """Branches that keep a loss factor from a low to a high frequency [Hz]. Raises BadInput for a band that
-    is none, and where they miss the loss factor by more than HELD_WITHIN."""
+    """Return branches that keep a loss factor from a low to a high frequency [Hz]. Raises BadInput for an
+    empty or too wide band, and if they miss the loss factor by more than HELD_WITHIN."""
     band = f"band = [{low:g}, {high:g}] Hz"
     if not low < high:
         raise BadInput(f"{band}: the second frequency must be the higher one")
@@ -146,7 +147,7 @@ def constant_loss(loss_factor: float, low: float, high: float) -> Branches:
 
 
 def _fit(loss_factor: float, frequency: np.ndarray, count: int, beyond: float) -> tuple[float, Branches]:
-    """The largest relative error of the loss factor within the band, and the branches."""
+    """Return the largest relative error of the loss factor within the band, and the branches."""
     from scipy.optimize import nnls
 
     factor = np.exp(beyond)

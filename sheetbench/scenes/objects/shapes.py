@@ -27,12 +27,12 @@ Span = Annotated[tuple[Number, Number], Unit("m")]
 
 
 class Rectangle(Frozen):
-    """Sides along x and y."""
+    """A rectangle with sides along x and y."""
 
     x: Span
-    """From and to, along x."""
+    """Coordinates [from, to] along x."""
     y: Span
-    """From and to, along y."""
+    """Coordinates [from, to] along y."""
 
     def _faults(self) -> Iterator[object]:
         for name, (low, high) in (("x", self.x), ("y", self.y)):
@@ -46,7 +46,7 @@ class Circle(Frozen):
     centre: Annotated[PlanPoint, Unit("m")]
     """Plan point [x, y]."""
     radius: Annotated[Positive, Unit("m")]
-    """Of the disc."""
+    """Radius of the disc."""
 
 
 class Shape(Frozen):
@@ -62,12 +62,12 @@ class Shape(Frozen):
     """Corners [x, y] in turn, either way round; its sides do not cross."""
 
     beyond: Annotated[tuple[PlanPoint, ...], Unit("m"), Field(min_length=3)] | None = None
-    """Corners of a polygon, all outside which is meant: of a support what a rim is held in."""
+    """Corners of a polygon whose outside is the shape: for a support that holds a rim."""
     hole: Annotated[int, Field(ge=1)] | None = None
-    """Of a support: the number of a hole of the sheet, that is of its cutout, or of a mesh's hole by its
-    middle's x, whose rim is held."""
+    """Number of a hole whose rim a support holds: the number of the cutout, or of a mesh's hole in the order
+    of the x of their middles."""
     rim: Literal[True] | None = None
-    """Of a support: the whole outline, for which where = "rim" stands too."""
+    """The whole outline, held by a support; where = "rim" is a short form."""
 
     def _faults(self) -> Iterator[object]:
         given = self.given(type(self).model_fields)
@@ -77,8 +77,8 @@ class Shape(Frozen):
 
     @cached_property
     def area(self) -> "Area":
-        """Return its area as a polygon of shapely."""
-        import shapely  # a fifth of a second that plain sheets need not wait for
+        """Return the shape as a polygon of shapely."""
+        import shapely  # takes 0.2 s, not needed for plain sheets
 
         if self.rectangle is not None:
             (left, right), (low, high) = self.rectangle.x, self.rectangle.y
@@ -95,7 +95,7 @@ class Shape(Frozen):
         return shapely.Polygon(self.polygon)
 
     def contains(self, points: np.ndarray) -> np.ndarray:
-        """Whether plan points (…, 2) [m] lie inside or on its boundary."""
+        """Return whether plan points (…, 2) [m] lie inside or on the boundary of the shape."""
         x, y = np.moveaxis(np.asarray(points, dtype=float), -1, 0)
         if self.circle is not None:
             centre = self.circle.centre
@@ -105,7 +105,7 @@ class Shape(Frozen):
         return np.asarray(shapely.intersects_xy(self.area, x, y))
 
     def in_words(self) -> str:
-        """Kind and place, in millimetres."""
+        """Return kind and place in words, in millimetres."""
         if self.beyond is not None:
             return f"rim, a polygon of {len(self.beyond)} corners, and beyond"
         left, low, right, high = (f"{1e3 * value:.4g}" for value in self.area.bounds)
@@ -119,7 +119,7 @@ class Shape(Frozen):
 
 
 def crossing(key: str, corners: tuple[PlanPoint, ...]) -> str:
-    """Why corners [m] in turn are no polygon, beginning with their key; "" where they are one."""
+    """Return the reason why corners [m] in turn are no polygon, with their key; "" if they are one."""
     import shapely
 
     polygon = shapely.Polygon(corners)
@@ -129,7 +129,7 @@ def crossing(key: str, corners: tuple[PlanPoint, ...]) -> str:
 
 
 def straight_sides(*areas: "Area") -> tuple[set[float], set[float]]:
-    """Return x and y [m] of the sides along the axes of areas and of their holes."""
+    """Return x and y [m] of the sides along the axes, of areas and of their holes."""
     sides: tuple[set[float], set[float]] = (set(), set())
     if not areas:
         return sides

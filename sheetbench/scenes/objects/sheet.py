@@ -21,7 +21,7 @@ Outline = Annotated[tuple[PlanPoint, ...], Field(min_length=3)]
 
 
 def _or_file(kind: Any) -> BeforeValidator:
-    """Return the mark, for the JSON Schema, of a key that a file's name may stand for."""
+    """Return the validator that lets the JSON Schema of a key allow a file's name too."""
     return BeforeValidator(lambda value: value, json_schema_input_type=str | kind)
 
 
@@ -30,7 +30,7 @@ Taper = Annotated[tuple[Positive, Positive], Unit("m")]
 
 
 class Edge(NamedTuple):
-    """Where an edge lies: its normal axis, the axis it runs along (0 = x, 1 = y), and which end."""
+    """An edge: its normal axis, the axis it runs along (0 = x, 1 = y), and its end of the normal axis."""
 
     normal_axis: int
     along_axis: int
@@ -38,7 +38,7 @@ class Edge(NamedTuple):
 
     @property
     def outward(self) -> tuple[float, float, float]:
-        """Unit vector in the plane, pointing out of the sheet."""
+        """Return the unit vector in the plane that points out of the sheet."""
         sign = 1.0 if self.far_end else -1.0
         return (sign, 0.0, 0.0) if self.normal_axis == 0 else (0.0, sign, 0.0)
 
@@ -52,7 +52,7 @@ EDGES: dict[str, Edge] = {
 
 
 class Sheet(Frozen):
-    """A flat sheet: sides of the rectangle that it is or that lies around its outline, thickness [m]."""
+    """A flat sheet: a rectangle, or an outline or a mesh within the rectangle; lengths in metres."""
 
     length_x: Length
     """Side along x: the sheet lies in 0 ≤ x ≤ length_x."""
@@ -63,31 +63,32 @@ class Sheet(Frozen):
     taper_x: Taper | None = Field(default=None, kw_only=True)
     """Thickness at x0 and at x1, linear between, one at least and one at most `thickness`."""
     taper_y: Taper | None = Field(default=None, kw_only=True)
-    """Thickness at y0 and at y1 likewise; with taper_x the product of both over `thickness`."""
+    """Thickness at y0 and at y1, linear between; with taper_x the product of both over `thickness`."""
 
     outline: Annotated[Outline, Unit("m"), _or_file(Outline)] | None = Field(default=None, kw_only=True)
     """Corners [x, y] in turn of a sheet that is no rectangle: length_x and length_y are the sides of the
-    rectangle around it, which begins at x = 0 and y = 0. Or a drawing, as "fin.dxf" or "fin.svg", relative to
-    the scene's file, whose largest ring is the outline; those within it are cutouts."""
+    rectangle around it, which begins at x = 0 and y = 0. Or "disc", round in that rectangle; or a drawing, as
+    "fin.dxf" or "fin.svg", relative to the scene's file, whose largest ring is the outline; the rings within
+    it are cutouts."""
     mesh: Annotated[PlanMesh, _or_file(PlanMesh)] | None = Field(default=None, kw_only=True)
     """In place of `outline`: a flat mesh in a file of Gmsh, Wavefront OBJ or another format, as "fin.msh",
-    relative to the scene's file. Its triangles and quadrilaterals are what plate, shell and solid solve on,
+    relative to the scene's file. Plate, shell and solid use its triangles and quadrilaterals as their mesh;
     its boundary is the outline, with its holes."""
     mesh_scale: Length | None = Field(default=None, kw_only=True)
-    """What a unit of the file of `mesh` or `outline` is, as "1 mm"; 1 m unless given, of a drawing what its
-    file says."""
+    """Length of a unit of the file of `mesh` or `outline`, as "1 mm"; 1 m unless given, for a drawing the
+    unit in its file."""
     mesh_shift: Literal["corner", "centre"] | Annotated[PlanPoint, Unit("m")] | None = Field(
         default=None, kw_only=True
     )
-    """What is added to the places of that file [m]: [dx, dy]; "corner" for what begins at x = 0 and y = 0
-    then, as drawings do unless it is given; "centre" where the file's origin is the sheet's middle."""
+    """Shift of the places of that file [m]: [dx, dy]; "corner" moves the rectangle's corner to x = 0, y = 0,
+    the default for drawings; "centre" moves the file's origin to the sheet's middle."""
     drawn_from: str | None = Field(default=None, kw_only=True)
-    """Written by the reader of that file: its name, and how its places became those here."""
+    """Written by the reader of that file: its name, and the changes of its places."""
 
     @model_validator(mode="before")
     @classmethod
     def _read(cls, data: Any) -> Any:
-        """Replace the name of a mesh's or an outline's file by what it holds."""
+        """Replace the name of a mesh's or an outline's file by the file's contents."""
         if not isinstance(data, dict) or not any(isinstance(data.get(key), str) for key in DRAWN):
             return data
         read = from_file(data)
@@ -121,18 +122,18 @@ class Sheet(Frozen):
 
     @staticmethod
     def _remedy(low: float, size: float, length: float) -> str:
-        """Return which key of a file's would help, after the sentence on its corners."""
+        """Return a clause on the key that would correct the places of a file, for the end of a refusal."""
         if abs(size - length) > COINCIDENT * length:
             return f"; mesh_scale = {length / size:.4g} times what it is makes it as long" * (size > 0.0)
         return '; mesh_shift = "corner" puts them there'
 
     @property
     def drawn(self) -> bool:
-        """Whether it has an outline or a mesh, and need not be a rectangle."""
+        """Return whether the sheet has an outline or a mesh, and need not be a rectangle."""
         return self.outline is not None or self.mesh is not None
 
     def thickness_at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Thickness [m] at places x, y [m], without patches."""
+        """Return the thickness [m] at places x, y [m], without patches."""
         thickness = np.full(np.broadcast_shapes(np.shape(x), np.shape(y)), self.thickness)
         for ends, length, at in zip((self.taper_x, self.taper_y), self.lengths, (x, y), strict=True):
             if ends is not None:
@@ -141,11 +142,11 @@ class Sheet(Frozen):
 
     @property
     def lengths(self) -> tuple[float, float]:
-        """Sides along x and y [m]."""
+        """Return the sides along x and y [m]."""
         return (self.length_x, self.length_y)
 
     def edge_at(self, name: str) -> float:
-        """Return where an edge lies along its normal axis [m]."""
+        """Return an edge's coordinate along its normal axis [m]."""
         return self.lengths[EDGES[name].normal_axis] if EDGES[name].far_end else 0.0
 
     def edge_ends(self, name: str) -> tuple[PlanPoint, PlanPoint]:
@@ -155,13 +156,13 @@ class Sheet(Frozen):
 
 
 class Gravity(Loading):
-    """A uniform acceleration [m/s²] of every mass; may have a `history`, as loads do."""
+    """A uniform acceleration of every mass; may have a `history`, as loads do."""
 
     acceleration: Annotated[Vector3, Unit("m/s²")]
-    """Along x, y and z: [0.0, 0.0, -9.81] for a sheet that lies level, z pointing up."""
+    """Components along x, y and z: [0.0, 0.0, -9.81] for a sheet that lies level, z pointing up."""
 
     @property
     def last_acceleration(self) -> Vector3:
-        """The acceleration [m/s²] in the end, and in statics."""
+        """Return the last acceleration [m/s²], which statics take."""
         x, y, z = (self.last_factor * component for component in self.acceleration)
         return x, y, z

@@ -1,17 +1,16 @@
 """Spring constants of a lattice, as data: the optional [springs] and [dampers] tables of a scene.
 
 Only the lumped model reads them. Links are Habibi et al.'s ka, kd, kz, kdT and kddT; area and strain springs,
-energy ½ k ε² a0 of a cell's mean strain, make up what those cannot. edge_shear and strip_shear change the
-twisting stiffness of the cells along an edge whose director nothing holds and leave their membrane stiffness
-alone: energy ½ k (γ + r ε)² a0 on every layer's cell, ε its strain along the edge and r the edge_coupling,
-and of the other sign for all layers together on the mid-surface's. The rim_ springs do so at the rims of
-outlines and cutouts, cell by cell.
+energy ½ k ε² a0 of a cell's mean strain, add stiffness that links cannot have. edge_shear and strip_shear
+change the twisting stiffness of the cells along an edge whose director nothing holds, not their membrane
+stiffness: energy ½ k (γ + r ε)² a0 on every layer's cell, ε its strain along the edge and r the
+edge_coupling, and the sum over all layers with the other sign on the mid-surface's cell. The rim_ springs do
+so at the rims of outlines and cutouts, cell by cell.
 
 On a graded grid every cell has springs of its own: a constant is then a table of cells, a list of rows from
-y0 to y1, each from x0 to x1. A link takes half the value of each cell beside it, a vertical one a quarter of
-each around it. edge_shear, strip_shear and edge_coupling are a list along the edges; where cells differ
-from one of two opposite edges to the other they are x0's and y0's, and those that begin with far_ x1's and
-y1's.
+y0 to y1, each from x0 to x1. A link takes half the value of each neighbouring cell, a vertical link a quarter
+of each of four. edge_shear, strip_shear and edge_coupling are a list along the edges x0 and y0; if the cells
+along x1 and y1 differ, the keys that begin with far_ are their lists.
 """
 
 from collections.abc import Iterator
@@ -38,7 +37,7 @@ AlongEdge = Annotated[Number | tuple[Number, ...], Forms()]
 
 
 class PerDirection(Frozen):
-    """One value per direction: along x, y and (where it has a meaning) z."""
+    """One value per direction: along x, y and, for springs across the thickness, z."""
 
     x: Links
     """For springs along x."""
@@ -49,7 +48,7 @@ class PerDirection(Frozen):
 
 
 class Either(Frozen):
-    """One value a direction, of either sign."""
+    """One value of either sign for the edges of each direction."""
 
     x: AlongEdge
     """Along the edges x0 and x1."""
@@ -67,7 +66,7 @@ Distribution = Literal["tributary", "gregory"]
 
 
 class SpringSet(Frozen):
-    """The [springs] table of a scene: springs, and the lattice that they were found for."""
+    """The [springs] table of a scene: spring constants, and the lattice that they belong to."""
 
     axial: Stiffness
     """Links along x and y within a layer (ka)."""
@@ -92,17 +91,17 @@ class SpringSet(Frozen):
     mid_stretch: Stiffness = 0.0
     """Strain springs against the stretching of the mid-surface along x and y."""
     coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
-    """Of a layer's cells with fibres, energy k ε1 ε2 a0 of their strains along x and y."""
+    """Coupling of a layer's cells with fibres, energy k ε1 ε2 a0 of their strains along x and y."""
     coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
-    """Of a layer's cells with fibres at an angle, energy k ε1 γ a0 of their strain along x and shear."""
+    """Coupling of a layer's cells with oblique fibres, energy k ε1 γ a0 of their strain along x and shear."""
     coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of their strain along y and shear."""
+    """Coupling of a layer's cells with oblique fibres, energy k ε2 γ a0 of their strain along y and shear."""
     mid_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
-    """coupling_xy of the mid-surface's cells."""
+    """Coupling of the mid-surface's cells as coupling_xy."""
     mid_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
-    """coupling_x of the mid-surface's cells."""
+    """Coupling of the mid-surface's cells as coupling_x."""
     mid_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
-    """coupling_y of the mid-surface's cells."""
+    """Coupling of the mid-surface's cells as coupling_y."""
     neo_hookean_shear: Annotated[Links, Unit("N/m")] = 0.0
     """Cells of a layer as a rubber membrane instead of area and stretch: 2 f'(0) of its energy's f(I1 - 3),
     neo-Hooke's shear modulus, times its thickness. Axial links then resist only the bending of cells in
@@ -121,91 +120,91 @@ class SpringSet(Frozen):
     """Strain springs against the shear of the cells' upright faces, energy ½ k γ² a0, a0 the cell's area and
     γ the angle between mean chord and mean director."""
     face_diagonal_shear: Annotated[Links, Unit("N/m")] = 0.0
-    """The same of the upright faces over a cell's two diagonals."""
+    """Strain springs as face_shear in the upright planes over a cell's two diagonals."""
     face_coupling: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same over one diagonal alone, which couples shears along x and y: that along x and y where it is
-    > 0, the other where it is < 0."""
+    """Strain springs as face_shear over one diagonal alone, which couple the shears along x and y: if > 0 the
+    diagonal from the corner of least x and y, if < 0 the other one."""
     edge_shear: EdgeStiffness = 0.0
-    """Strain springs against the twist of cells along a free, hinged or held edge, its opposite not so."""
+    """Correction of the twist in the cells along a free, hinged or held edge whose facing edge is clamped."""
     strip_shear: EdgeStiffness = 0.0
-    """The same where the opposite edge is free, hinged or held too."""
+    """Strain springs as edge_shear if the opposite edge is free, hinged or held too."""
     edge_coupling: EdgeCoupling = 0.0
-    """Of cells with fibres at an angle: what edge_shear and strip_shear resist is γ + edge_coupling ε, ε the
+    """Coupling of cells with fibres at an angle: edge_shear and strip_shear resist γ + edge_coupling ε, ε the
     strain along the edge."""
     far_edge_shear: EdgeStiffness | None = None
-    """edge_shear of the edges x1 and y1, where it is not that of x0 and y0."""
+    """Value of edge_shear for the edges x1 and y1; as for x0 and y0 unless given."""
     far_strip_shear: EdgeStiffness | None = None
-    """strip_shear of the edges x1 and y1, where it is not that of x0 and y0."""
+    """Value of strip_shear for the edges x1 and y1; as for x0 and y0 unless given."""
     far_edge_coupling: EdgeCoupling | None = None
-    """edge_coupling of the edges x1 and y1, where it is not that of x0 and y0."""
+    """Value of edge_coupling for the edges x1 and y1; as for x0 and y0 unless given."""
     rim_shear: Annotated[AnySign, Unit("N/m")] = 0.0
-    """edge_shear of the cells at rims of outlines and cutouts: energy ½ k γ² a0 of every layer's cell, and of
-    the other sign for all layers together of the mid-surface's, as all rim_ springs."""
+    """Value of edge_shear for the cells at rims of outlines and cutouts: energy ½ k γ² a0 of every layer's
+    cell, and the sum over the layers with the other sign on the mid-surface's cell, as all rim_ springs."""
     rim_stretch_x: Annotated[AnySign, Unit("N/m")] = 0.0
-    """Of such cells with fibres at an angle or at oblique rims, energy ½ k ε1² a0 of the strain along x."""
+    """Rim springs of cells with oblique fibres or rims, energy ½ k ε1² a0 of the strain along x."""
     rim_stretch_y: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of the strain along y."""
+    """Rim springs as rim_stretch_x, energy ½ k ε2² a0 of the strain along y."""
     rim_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same, energy k ε1 ε2 a0."""
+    """Rim springs as rim_stretch_x, energy k ε1 ε2 a0."""
     rim_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same, energy k ε1 γ a0."""
+    """Rim springs as rim_stretch_x, energy k ε1 γ a0."""
     rim_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same, energy k ε2 γ a0."""
+    """Rim springs as rim_stretch_x, energy k ε2 γ a0."""
     upward_axial_x: Annotated[AnySign, Unit("N/m")] = 0.0
-    """Of layers that are not symmetric about the middle, how much stiffer the links along x of each are than
-    those of the layer below."""
+    """Increase of the stiffness of the links along x from each layer to the next one above, in sheets that
+    are not symmetric about the middle."""
     upward_axial_y: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of the links along y."""
+    """Increase from layer to layer of the stiffness of the links along y."""
     upward_diagonal: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of the diagonals."""
+    """Increase from layer to layer of the stiffness of the diagonals."""
     upward_area: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of the area springs."""
+    """Increase from layer to layer of the area springs."""
     upward_stretch_x: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of the strain springs along x."""
+    """Increase from layer to layer of the strain springs along x."""
     upward_stretch_y: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of the strain springs along y."""
+    """Increase from layer to layer of the strain springs along y."""
     upward_shear: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of shear."""
+    """Increase from layer to layer of shear."""
     upward_coupling_xy: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of coupling_xy."""
+    """Increase from layer to layer of coupling_xy."""
     upward_coupling_x: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of coupling_x."""
+    """Increase from layer to layer of coupling_x."""
     upward_coupling_y: Annotated[AnySign, Unit("N/m")] = 0.0
-    """The same of coupling_y."""
+    """Increase from layer to layer of coupling_y."""
     layer_distance: Annotated[Positive, Unit("m")] = Field(kw_only=True)
     """Distance of neighbouring layers; of two layers, about the sheet's thickness."""
 
     grid: tuple[Masses, Masses, Masses] | None = Field(default=None, kw_only=True)
-    """Masses along x and y, and layers, of the lattice that these springs belong to: what is solved unless a
-    grid is requested; another grid is refused."""
+    """Masses along x and y, and layers, of the lattice that the springs belong to: it is solved unless a grid
+    is requested; another grid is refused."""
     grading: Annotated[float, Real(ge=0, le=1)] = Field(default=0.0, kw_only=True)
     """How much smaller that lattice's cells are at the edges: 0, all alike, to 1; another one is refused."""
     graded_edges: tuple[EdgeName, ...] | None = Field(default=None, kw_only=True)
-    """The edges towards which they are smaller, where that is not all four."""
+    """The edges towards which cells are smaller; all four unless given."""
     lines_at: Annotated[tuple[tuple[Finite, ...], tuple[Finite, ...]] | None, Unit("m")] = Field(
         default=None, kw_only=True
     )
-    """x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
+    """Places x and y that lines of that lattice were moved to: the sides of a drawn sheet's shapes."""
     masses: Distribution = Field(default="tributary", kw_only=True)
-    """How frequencies share out its mass: as usual (tributary), or as a fit to them has it (gregory)."""
+    """Distribution of the mass for frequencies: as usual (tributary), or as in a fit to them (gregory)."""
 
     def _faults(self) -> Iterator[object]:
         both = "neo_hookean_shear: the same cells cannot have area, stretch and shear springs"
         membranes = self.neo_hookean_shear or self.mooney_rivlin
         yield membranes and (self.area or self.stretch or self.shear) and both
-        towards(self.grading, self.graded_edges)  # raises for what is no grading
+        towards(self.grading, self.graded_edges)  # raises BadInput for an invalid grading
 
     def graded(self, sides: tuple[float, float]) -> Graded:
-        """Return the grading of that lattice's lines; sides: of its sheet [m]."""
+        """Return the grading of the lattice's lines on a sheet with sides [m]."""
         return through(self.lines_at, sides) if self.lines_at else towards(self.grading, self.graded_edges)
 
 
-LATTICE = {"grid", "grading", "graded_edges", "lines_at", "masses"}  # keys of what the springs are of
+LATTICE = {"grid", "grading", "graded_edges", "lines_at", "masses"}  # keys of the lattice of the springs
 CONSTANTS = [name for name in SpringSet.model_fields if name not in LATTICE]
 
 
 class DamperSet(Frozen):
-    """Damping of each family [N·s/m]."""
+    """The [dampers] table of a scene: damping of each family of links [N·s/m]."""
 
     axial: Damping = 0.0
     """Dampers along the links along x and y within a layer."""

@@ -1,18 +1,18 @@
-"""Sheets by their stiffnesses, as cloth is known: [material] kind = "stiffness".
+"""Sheets given by their stiffnesses, as cloth is measured: [material] kind = "stiffness".
 
     membrane = { x = 1e4, y = 1e4, shear = 1e3 }     A11, A22, A66 [N/m], coupling A12
     bending = { x = 2e-6, y = 1e-6 }                 D11, D22, D66 [N·m], coupling D12
     area_density = "150 g/m²"
 
 A number is x and y at once. Coupling is ν √(x y) and shear (1 − ν) √(x y)/2 unless given, ν the `poisson` of
-the material, 0 unless given. A scene makes of it the laminate that has these stiffnesses to rounding: of a
-thickness h and a core of c h, with a = A/h and d = 12 D/h³,
+the material, 0 unless given. A scene replaces it by a laminate with the given stiffnesses to rounding, of
+thickness h with a core of c h: with a = A/h and d = 12 D/h³,
 
     (1 − c) Qo + c Qi = a,    (1 − c³) Qo + c³ Qi = d,    Qo = (d − c² a)/(1 − c²),  Qi = (a − (1 − c) Qo)/c,
 
-which both are those of a material where the eigenvalues of a⁻¹ d lie between c² and 1 + c + c². The
-thickness is the sheet's, or, without one, that which makes the largest of them 1. Its transverse shear is
-that of a sheet of G = max(A11, A22)/h, which thin sheets do not feel.
+and Qo and Qi are positive definite if the eigenvalues of a⁻¹ d lie between c² and 1 + c + c². The thickness
+is the sheet's or, if it has none, makes the largest eigenvalue 1. The transverse shear modulus is
+G = max(A11, A22)/h, to which thin sheets are insensitive.
 """
 
 from collections.abc import Mapping
@@ -25,11 +25,11 @@ from sheetbench.scenes.objects.orthotropy import NEEDED
 from sheetbench.scenes.objects.quantities import Frozen, Number, Positive
 
 KEYS = ("membrane", "bending", "area_density")
-SAME = 1e-9  # of the eigenvalues, within which one layer has both
+ONE_LAYER = 1e-9  # of the eigenvalues, within which one layer has both stiffnesses
 
 
 class Stiffnesses(Frozen):
-    """Stiffness along x and along y, their coupling, and in shear or twist."""
+    """Membrane or bending stiffness: along x, along y, their coupling, and in shear or twist."""
 
     x: Positive
     """A11 or D11."""
@@ -49,8 +49,8 @@ class Stiffnesses(Frozen):
 
 
 def as_laminate(data: Mapping[str, Any], material: Any) -> dict[str, Any]:
-    """Return a scene's keys with the sheet's thickness, the orthotropic material and the layers that have the
-    stiffnesses of a material. Raises ValueError for what no laminate has."""
+    """Return a scene's keys with thickness, orthotropic material and layers in place of the stiffnesses.
+    Raises ValueError for stiffnesses that no laminate has."""
     rest = {
         key: value for key, value in dict(data["material"]).items() if key not in (*KEYS, "poisson", "kind")
     }
@@ -79,13 +79,13 @@ def as_laminate(data: Mapping[str, Any], material: Any) -> dict[str, Any]:
         raise ValueError("layer: of a material of kind = 'stiffness' layers follow; leave one out")
     outer = (bent - core**2 * stretching) / (1.0 - core**2)
     inner = (stretching - (1.0 - core) * outer) / core
-    if high - low < SAME and abs(high - 1.0) < SAME:
-        made = {**rest, **more, **_constants(stretching)}
-        return {**data, "sheet": {**sheet, "thickness": thickness}, "material": made}
+    if high - low < ONE_LAYER and abs(high - 1.0) < ONE_LAYER:
+        single = {**rest, **more, **_constants(stretching)}
+        return {**data, "sheet": {**sheet, "thickness": thickness}, "material": single}
     sides = {"thickness": 0.5 * (1.0 - core) * thickness}
     middle = {"thickness": thickness - 2.0 * sides["thickness"], **across, **_constants(inner)}
-    found = {**data, "sheet": {**sheet, "thickness": thickness}, "layer": [sides, middle, sides]}
-    return {**found, "material": {**rest, **more, **_constants(outer)}}
+    laminate = {**data, "sheet": {**sheet, "thickness": thickness}, "layer": [sides, middle, sides]}
+    return {**laminate, "material": {**rest, **more, **_constants(outer)}}
 
 
 def _thickness(sheet: Mapping[str, Any], ratio: float) -> float:
@@ -98,7 +98,7 @@ def _thickness(sheet: Mapping[str, Any], ratio: float) -> float:
 
 
 def _constants(form: np.ndarray) -> dict[str, float]:
-    """Return the constants of a ply with this stiffness (3, 3) [Pa]."""
+    """Return the constants of a ply with a plane-stress stiffness (3, 3) [Pa]."""
     compliance = np.linalg.inv(form[:2, :2])
     values = (
         1.0 / compliance[0, 0],

@@ -1,7 +1,7 @@
-"""The kinds of support, of an edge or, in place of `edge`, of the part of the sheet `where` a shape says.
+"""The kinds of support, of an edge or, in place of `edge`, of the part of the sheet in a shape, `where`.
 
-A support holds the mid-surface, or components of it, and may hold its normal too, the director. With n
-pointing out of the sheet, e along the edge and s measured from its middle, the director is
+A support holds the mid-surface, or components of it, and may hold its normal too, the director. The director
+is, with n pointing out of the sheet, e along the edge and s measured from its middle,
 
     e_z cos τ − n sin τ    in a clamp of tilt τ, which turns about the edge's mid-line
     e_z cos κs − e sin κs  on a rod of curvature κ, which keeps arc length and the middle's place and tangent
@@ -67,7 +67,7 @@ class _Support(_EdgeSupport):
         json_schema_extra={"allOf": [{"oneOf": [{"required": ["edge"]}, {"required": ["where"]}]}]}
     )
 
-    # None beside `where` alone, which `require_rectangle` keeps from models that read edges
+    # None only with `where`, which models that read edges refuse by `require_rectangle`
     edge: Annotated[EdgeName, Field(default=None)]
     """The edge that is supported."""
     where: Annotated[Shape, _or_rim] | None = Field(default=None, kw_only=True)
@@ -115,8 +115,7 @@ class Held(_Support):
 
 
 class Point(Frozen):
-    """Some components of the mid-surface's displacement held at one point, free to turn: a pin, a tack, one
-    of the three points that a free sheet rests on."""
+    """Some components of the mid-surface's displacement held at one point, free to turn: a pin or a tack."""
 
     kind: Literal["point"] = Field(default="point", kw_only=True)
     at: Annotated[PlanPoint, Unit("m")]
@@ -128,7 +127,7 @@ class Point(Frozen):
 
     @property
     def where(self) -> Shape:
-        """Return the point as a shape, smaller than any distance on a sheet."""
+        """Return the point as a tiny square, smaller than any distance on a sheet."""
         (x, y), half = self.at, SMALLEST_PLACE
         return Shape(rectangle=Rectangle(x=(x - half, x + half), y=(y - half, y + half)))
 
@@ -138,7 +137,7 @@ class Curved(_EdgeSupport):
 
     kind: Literal["curved"] = Field(default="curved", kw_only=True)
     curvature: Annotated[Number, Unit("1/m")]
-    """Of the rod; > 0 lifts the edge's ends towards +z, its middle stays where it is."""
+    """Curvature of the rod; > 0 lifts the edge's ends towards +z, its middle stays in place."""
 
 
 class Symmetric(Frozen):
@@ -155,7 +154,7 @@ Support = Annotated[AnySupport, Field(discriminator="kind")]
 
 
 def place(support: AnySupport) -> Shape | None:
-    """Return the shape in which the sheet is supported, None of an edge."""
+    """Return the shape in which the sheet is supported, None for an edge."""
     return getattr(support, "where", None)
 
 
@@ -165,7 +164,7 @@ def named(supports: Iterable[AnySupport]) -> dict[str, AnySupport]:
 
 
 def held_axes(support: AnySupport) -> tuple[int, ...]:
-    """Axes (0, 1, 2) in which the support holds the mid-surface."""
+    """Return the axes (0, 1, 2) along which the support holds the mid-surface."""
     if isinstance(support, Symmetric):
         return (EDGES[support.edge].normal_axis,)
     if isinstance(support, Held | Point):
@@ -174,20 +173,20 @@ def held_axes(support: AnySupport) -> tuple[int, ...]:
 
 
 def encloses_volume(supports: Iterable[AnySupport]) -> bool:
-    """Whether the volume between the sheet and its plan is the sheet's alone to change: every edge is held
-    across itself, so that none sweeps an area. A pressure then has a potential, − p × that volume."""
+    """Return whether every edge is held across itself, so that none sweeps an area. A pressure then has a
+    potential, − p times the volume between the sheet and its plan."""
     on_edges = [support for support in supports if place(support) is None]
     held = {support.edge for support in on_edges if EDGES[support.edge].normal_axis in held_axes(support)}
     return held == set(EDGES)
 
 
 def holds_director(support: AnySupport) -> bool:
-    """Whether the support holds the normal as well as the mid-surface."""
+    """Return whether the support holds the normal as well as the mid-surface."""
     return isinstance(support, Clamped | Curved)
 
 
 def tilt_axes(support: AnySupport) -> tuple[int, ...]:
-    """Return the axes along which the support holds the director too, all layers and not just their mean."""
+    """Return the axes along which the support also holds the director: all layers, not only their mean."""
     if isinstance(support, Hinged) and support.twist == "held":
         return (EDGES[support.edge].along_axis,)
     return held_axes(support) if isinstance(support, Clamped | Curved | Symmetric) else ()

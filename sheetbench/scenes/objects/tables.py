@@ -1,9 +1,8 @@
-"""Values over time: samples at increasing times [s], joined by lines or by a smooth curve, constant before
-and after.
+"""Values over time: samples at increasing times [s], joined by lines or by a smooth curve, constant outside.
 
-Smooth means cubics between the samples whose slopes go over into each other and which do not overshoot: where
-the samples rise the curve rises, where two are equal it rests. Source: Fritsch and Butland (1984), SIAM J.
-Sci. Stat. Comput. 5, 300–304, as SciPy's `PchipInterpolator` has it.
+A smooth curve consists of cubics between the samples, with continuous slope and without overshoot: between
+rising samples it rises, between equal ones it is constant. Source: Fritsch and Butland (1984), SIAM J. Sci.
+Stat. Comput. 5, 300–304, in the form of SciPy's `PchipInterpolator`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,27 +14,27 @@ from pydantic import Field
 
 from sheetbench.scenes.objects.quantities import Frozen, Number, Unit
 
-INSTANT = 1e-9  # of a table's span, that a sum of time steps may lack of the moment it stands for
+INSTANT = 1e-9  # of a table's span: rounding error of a sum of time steps
 
 Interpolation = Literal["smooth", "linear"]
 Values = Sequence[float] | Sequence[Sequence[float]]
 
 
 class PiecewiseCurve:
-    """Values (n, …) at increasing times (n,) [s], constant outside, between them linear or smooth: a smooth
-    curve of two is a line."""
+    """Curve through values (n, …) at increasing times (n,) [s], linear or smooth, constant outside. A smooth
+    curve of two samples is a line."""
 
     def __init__(self, time: Sequence[float], values: Values, interpolation: Interpolation = "linear"):
         self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)
         self._instant = INSTANT * (self._time[-1] - self._time[0])
         # coefficients of each piece in the time since its start, from the constant on; the first and the last
-        # piece are what lies before and after
+        # piece lie before and after the samples
         inner = samples[None, :0]
         if len(time) > 1 and interpolation == "linear":
             spacing = np.diff(self._time).reshape(-1, *(1,) * (samples.ndim - 1))
             inner = np.stack([samples[:-1], np.diff(samples, axis=0) / spacing])
         elif len(time) > 1:
-            from scipy.interpolate import PchipInterpolator  # a scene that is only read need not wait for it
+            from scipy.interpolate import PchipInterpolator  # not needed to read a scene
 
             inner = np.asarray(PchipInterpolator(self._time, samples).c[::-1])
         self._pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
@@ -43,18 +42,17 @@ class PiecewiseCurve:
         self._pieces[0, 0], self._pieces[0, -1] = samples[0], samples[-1]
 
     def at(self, time: float | np.ndarray | None = None) -> np.ndarray:
-        """The value at a time [s], or those at times (k,), (k, …); without one the last, as statics take
-        it."""
+        """Return the value at a time [s], or values (k, …) at times (k,); without a time the last value."""
         if time is None:
             return np.asarray(self._pieces[0, -1])
         return self._sum(time, np.searchsorted(self._time, time, side="right"), 0)
 
     def slope(self, time: float | np.ndarray, before: bool = False) -> np.ndarray:
-        """Its derivative [1/s] from a time [s] on, or until then."""
+        """Return the derivative [1/s] just after a time [s], or just before."""
         return self._sum(time, self._piece(time, before), 1)
 
     def bend(self, time: float | np.ndarray) -> np.ndarray:
-        """Its second derivative [1/s²] from a time [s] on."""
+        """Return the second derivative [1/s²] just after a time [s]."""
         return self._sum(time, self._piece(time, False), 2)
 
     def _piece(self, time: float | np.ndarray, before: bool) -> np.ndarray:
@@ -62,25 +60,25 @@ class PiecewiseCurve:
         return np.searchsorted(self._time, shifted, side="right")
 
     def _sum(self, time: float | np.ndarray, piece: np.ndarray, derivative: int) -> np.ndarray:
-        """The derivative of this order of the pieces' polynomials, by Horner's rule."""
+        """Return the derivative of this order of the pieces' polynomials, by Horner's rule."""
         since = time - self._time[np.maximum(piece - 1, 0)]
         since = np.reshape(since, (*np.shape(time), *(1,) * (self._pieces.ndim - 2)))
-        found = np.zeros(np.shape(self._pieces[0, piece]))
+        total = np.zeros(np.shape(self._pieces[0, piece]))
         for power in range(len(self._pieces) - 1, derivative - 1, -1):
             factor = float(np.prod(np.arange(power - derivative + 1, power + 1)))
-            found = factor * self._pieces[power, piece] + since * found
-        return found
+            total = factor * self._pieces[power, piece] + since * total
+        return total
 
 
 class OverTime(Frozen):
-    """Base of the tables: time (n,) [s], increasing, and n samples of everything else that is a list."""
+    """Base of the tables: increasing times (n,) [s], and n samples under every other key that is a list."""
 
     time: Annotated[tuple[Number, ...], Unit("s")] = Field(min_length=1)
     """Increasing times; the first sample holds before and the last one after."""
 
     @property
     def samples(self) -> dict[str, tuple[Any, ...]]:
-        """Return the samples by their keys, without those that may be left out and are."""
+        """Return the samples by their keys, without optional keys that are not given."""
         fields = type(self).model_fields
         return {k: v for k, v in self if isinstance(v, tuple) and (v or fields[k].is_required())}
 
@@ -95,7 +93,7 @@ class OverTime(Frozen):
         return PiecewiseCurve(self.time, self.samples[name], getattr(self, "interpolation", "linear"))
 
     def still(self) -> Self:
-        """Return the table that stays where it is at t = 0."""
+        """Return the table with the constant values of t = 0."""
         now = {name: (self.over_time(name).at(0.0).tolist(),) for name in self.samples}
         return self.replace(**{**now, "time": (0.0,)})
 
@@ -104,7 +102,7 @@ class FactorTable(OverTime):
     """A factor over time."""
 
     factor: tuple[Number, ...]
-    """What the load is multiplied by at each time, linear between them; statics take the last one."""
+    """Factor of the load at each time, linear between them; statics take the last one."""
 
 
 STEADY = FactorTable(time=(0.0,), factor=(1.0,))
@@ -118,12 +116,12 @@ class Loading(Frozen):
 
     @property
     def last_factor(self) -> float:
-        """What the load is multiplied by in the end, and in statics."""
+        """Return the last factor of the load, which statics take."""
         return self.history.factor[-1] if self.history is not None else 1.0
 
     @property
     def course(self) -> PiecewiseCurve:
-        """The factor over time."""
+        """Return the factor over time."""
         return (self.history or STEADY).over_time("factor")
 
     def times(self, factor: float) -> Self:

@@ -31,8 +31,8 @@ STABILITY = ["stability", "one-edge-clamped", "--vary", "load", "--workers", "1"
 @pytest.mark.sweep
 @pytest.mark.parametrize(("code", "arguments", "begun", "left"), [
     (DEAF, COMPARE, "solving", "nothing was kept"),
-    (COMMAND, SIMULATE, "of 500 s", "the same command goes on"),
-    (COMMAND, TRADEOFF, "0/", "the same command goes on"),
+    (COMMAND, SIMULATE, "of 500 s", "run the same command again to resume"),
+    (COMMAND, TRADEOFF, "0/", "run the same command again to resume"),
     pytest.param(LINGERS, STABILITY, "0/", "", marks=pytest.mark.nightly),
 ], ids=["compare", "simulate", "tradeoff", "impatient"])  # fmt: skip
 def test_a_long_command_is_interrupted(tmp_path, monkeypatch, code, arguments, begun, left):

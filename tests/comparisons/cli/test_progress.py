@@ -115,7 +115,7 @@ def test_a_campaign_shows_the_run_that_goes_on(monkeypatch, terminal):
             pass
         progress(Progress(1, 9, "solid 24", "converged", 70.0, ("shell 32",)))
     assert "solid 24, and 2 more" in screen.getvalue()
-    assert "1/9 solid 24: converged, going on: shell 32" in screen.getvalue() or terminal
+    assert "1/9 done; solid 24: converged; running: shell 32" in screen.getvalue() or terminal
     assert "70 s left" in screen.getvalue()
 
 
@@ -137,7 +137,7 @@ def test_quiet_leaves_results_and_warnings(monkeypatch, quiet, capsys):
     as_verb("any", command)(quiet=quiet, verbose=False, no_pictures=False)
     printed = capsys.readouterr()
     assert printed.out == "the result\n"
-    progress = [] if quiet else ["1/2 a run: converged", "kernels are compiled first"]
+    progress = [] if quiet else ["1/2 done; a run: converged", "kernels are compiled first"]
     assert printed.err.splitlines() == [*progress, "a warning"]
 
 

@@ -206,6 +206,23 @@ RECIPES = [  # codes' own examples: E h [N/m], ν, D11 [N·m], and what is said
     ("mujoco", "young=3e5,poisson=0,thickness=1e-2", 3000.0, 0.0, 0.03712, ""),
     ("pybullet", "springElasticStiffness=40", 53.33, 1 / 3, None, "nothing given says how it bends"),
     ("genesis", "stretch_compliance=1e-7,bending_compliance=1e-5", 1.333e7, 1 / 3, 1.125e5, "of one 300 mm"),
+    ("newton", "tri_ke=50,tri_ka=50,edge_ke=10", 133.33, 1 / 3, 1.398, "of one 334 mm thick"),
+    (
+        "sofa",
+        "youngModulus=20000,poissonRatio=0.3,bendingStiffness=10000",
+        20000.0,
+        0.3,
+        6117.4,
+        "1.83e+03 mm",
+    ),
+    (
+        "c-ipc",
+        "E=8210,nu=0.243,thickness=0.318e-3,density=472.64,bendingStiffMult=100",
+        2.6108,
+        0.243,
+        1.2321e-5,
+        "",
+    ),
     ("newton", "tri_ke=1e4,tri_ka=1e4,edge_ke=0", 26667.0, 1 / 3, 0.0, "D11 = 0 N·m"),
     (
         "openusd",

@@ -12,7 +12,6 @@ import pytest
 from cases import CLAMP, GRAVITY, OBLONG, SILICONE, calibrated
 from commands import python, run
 from exported import BLOWN, MOMENT, PULL, SCENES
-from rubbers import rubber
 
 import lumped
 from comparisons.codes.onefile import program
@@ -28,9 +27,15 @@ STRIP = Scene("strip", OBLONG, SILICONE.replace(damping_rate=5.0), GRAVITY, (CLA
 RISE = {"time": (0.0, 0.004, 0.02), "displacement": ((0, 0, 0), (0, 0, 0.001), (0.001, 0, 0.003))}
 RAMP = {"time": (0.0, 0.01), "factor": (0.0, 1.0)}
 LEVEL = scenes.Plane(position=(0.0, 0.0, -0.0026), friction=0.3, contact_damping=0.1)
-MOVED = LEVEL.replace(motion={"time": (0.0, 0.02), "displacement": ((0, 0, 0), (0.001, 0, -0.002))})
+MOVED = LEVEL.replace(
+    friction=0.002, motion={"time": (0.0, 0.02), "displacement": ((0, 0, 0), (0.001, 0, -0.002))}
+)
 HINGES = (Hinged(edge="x0", motion=RISE), Held(edge="x1", components=("z",)))
 TIED = DamperSet(axial=0.02, diagonal=0.01, vertical=0.1, cross=0.01)
+TIP = {"rectangle": {"x": (0.1, 0.2), "y": (0, 0.1)}}
+BODY = {"where": TIP, "mass": 0.01, "inertia": (1e-6, 1e-6, 1e-6)}
+ROUND = scenes.Sphere(position=(0.15, 0.05, -0.0325), radius=0.03, friction=0.002, contact_damping=0.1)
+BAR = scenes.Cylinder(position=(0.15, 0.05, -0.0225), axis=(0.1, 1.0, 0.0), radius=0.02, friction=0.3)
 OWN = {
     "settling": (SETTLING, {}),
     "rate": (STRIP, {}),
@@ -44,8 +49,26 @@ OWN = {
     "weight over time": (STRIP.replace(gravity=GRAVITY.replace(history=RAMP)), {}),
     "payload": (STRIP.replace(masses=[{"at": (0.2, 0.1), "mass": 0.003}]), {}),
     "three layers": (SETTLING, {"grid": (5, 5, 3)}),
+    "air": (STRIP.replace(air={"density": 1.2, "drag": 1.0}), {}),
+    "body": (STRIP.replace(masses=[BODY]), {}),
+    "ball": (STRIP.replace(obstacles=(ROUND,)), {}),
+    "bar": (STRIP.replace(obstacles=(BAR,)), {}),
 }
-LIKE = ("graded", "half", "uniform", "cut", "woven", "skew", "sheared", "bimetal")
+LIKE = (
+    "graded",
+    "half",
+    "uniform",
+    "cut",
+    "woven",
+    "skew",
+    "sheared",
+    "bimetal",
+    "yeoh",
+    "gent",
+    "mooney-rivlin",
+)
+# in single numbers: friction within 1 mm/s; a small difference of energies; reactions of a bent clamp
+ROUGH = ("lifted", "bimetal", "graded")
 ALL = OWN | {name: SCENES[name] for name in LIKE}
 
 
@@ -118,7 +141,8 @@ def test_the_program_takes_the_steps_that_lumped_takes(name, tmp_path):
 
 
 @needs_gcc
-@pytest.mark.parametrize("name", ["settling", "rate", "skew"])
+@pytest.mark.sweep(8)
+@pytest.mark.parametrize("name", [name for name in ALL if name not in ROUGH])
 def test_single_numbers_are_off_by_their_rounding(name, tmp_path):
     sheet, stiffness = made(name, tmp_path, "single")
     (moved, pulled, stored), (peak, force, energy) = off(sheet)
@@ -245,16 +269,9 @@ def test_inputs_are_what_a_scene_would_say(what, tmp_path):
     assert np.abs(left[:3]).max() > 0.0 and not sheet.row()[:3].any()  # the other has not moved
 
 
-TIP = {"rectangle": {"x": (0.1, 0.2), "y": (0, 0.1)}}
-BODY = {"where": TIP, "mass": 0.01, "inertia": (1e-6, 1e-6, 1e-6)}
 SLOW = [{"time": 0.1, "share": 0.2}]
 REFUSED = {
     "actuators: x1": (scenes.load("actuated-edge"), {"grid": 3}),
-    "obstacle 1: contact over patches": SCENES["cylinder"],
-    "obstacle 1: contact over": SCENES["ball"],
-    "rubber": (STRIP.replace(material=rubber("yeoh")), {"grid": (5, 3), "method": "hyperelastic"}),
-    "air": (STRIP.replace(air={"density": 1.2, "drag": 1.0}), {"grid": (5, 3)}),
-    "mass.inertia": (STRIP.replace(masses=[BODY]), {"grid": (5, 3)}),
     "branches": (STRIP.replace(material=SILICONE.replace(relaxation=SLOW)), {"grid": (5, 3)}),
 }
 

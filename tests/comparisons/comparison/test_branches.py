@@ -60,7 +60,7 @@ def test_a_perfect_column_has_no_error_until_it_is_let_buckle(branch):
     else:
         assert lattice.status is shell.status is Status.CONVERGED
         assert found.error(lattice) < 0.2
-        assert any("stable equilibrium that it comes to" in note for note in found.report().notes)
+        assert any("the stable equilibrium shown" in note for note in found.report().notes)
 
 
 TILTED = tuple(Clamped(edge=edge, tilt=0.3) for edge in ("x0", "x1"))
@@ -138,8 +138,8 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
     "finer, bar, expected",
     [
         (fine(0.007), 0.01, "different branches of equilibria, or too coarse a grid: on 9×5×2"),
-        (fine(0.0101), 0.8, "the shell's mesh leaves ± 80 %"),
-        (fine(0.0101, status=Status.DIVERGED), 0.01, "twice as many cells a side the lattice ends diverged"),
+        (fine(0.0101), 0.8, "the shell's error bar is ± 80 %"),
+        (fine(0.0101, status=Status.DIVERGED), 0.01, "twice as many cells per side the lattice is diverged"),
         (None, 0.01, "different branches of equilibria, or too coarse a grid or mesh"),
     ],
 )

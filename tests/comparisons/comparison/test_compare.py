@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import pyvista
 
+import lumped
 from comparisons.comparison.answer import Comparison
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.error_bar import ErrorBar
@@ -24,6 +25,7 @@ from sheetbench import scenes
 from sheetbench.answers.files import to_json
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.parameters import put
 
 pytestmark = pytest.mark.smoke
 
@@ -73,7 +75,7 @@ def test_the_error_over_the_sheet_stands_beside_that_at_the_probes():
         at = [column.name for column in costs.columns].index("field error")
         assert [row[at] for row in costs.rows] == [pytest.approx(0.03), None]
         assert both.figures()[0].description.endswith(f"{100 * at_probe:.2f} %, over the sheet 3.00 %")
-        assert any("over the sheet more than 1.5 times" in note for note in both.notes()) == (not at_probe)
+        assert any("over the sheet is more than 1.5 times" in note for note in both.notes()) == (not at_probe)
 
 
 def test_a_sentence_says_how_far_the_lattice_is_from_the_sheet_as_described(tmp_path):
@@ -160,6 +162,23 @@ def test_default_comparison_is_consistent_then_shell_then_uniform_which_is_farth
     assert pairs == {("lumped", "shell"), ("lumped-uniform", "shell")}
     near, own, far = map(compared.error, solutions)
     assert near < 0.02 and far > near and own is None
+
+
+def test_a_column_says_how_far_one_percent_of_a_parameter_moves_the_probes():
+    """As a lattice one percent stiffer moves, and less than nothing where a probe is held."""
+    scene = scenes.load("one-edge-clamped").replace(probes={"held": (0.0, 0.1), "P4": (0.188, 0.188)})
+    found = replace(compare(scene, Lattice(4), elements=2), sensitive_to=("young", "gravity.z"))
+    u, stiffer = (
+        lumped.solve(at, lumped.calibrate(at.sheet, at.material, 4)).displacement([(0.188, 0.188)])[0]
+        for at in (scene, put(scene, "young", 1.01 * scene.material.young))
+    )
+    moved = float(u @ (stiffer - u) / (u @ u))
+    shown = found.sensitivities
+    assert shown["lumped"]["young"]["P4"] == pytest.approx(moved, rel=0.02)
+    assert shown["shell"]["young"]["P4"] == pytest.approx(moved, rel=0.1)
+    assert shown["shell"]["gravity.z"]["P4"] == pytest.approx(-shown["shell"]["young"]["P4"], rel=1e-4)
+    assert shown["lumped"]["young"]["held"] is None
+    assert "by 1 % of young" in found.tables()[0].to_csv() and found.document()["sensitivities"] == shown
 
 
 def test_json_document_has_the_promised_keys(compared):

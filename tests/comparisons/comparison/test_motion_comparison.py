@@ -87,7 +87,7 @@ def test_the_reference_has_a_bar_by_mesh_and_by_step():
     assert near.doubt and near.differences[0]["distinguishable"]
     assert unknown.bar is None and unknown.differences[0]["distinguishable"] is None and not unknown.doubt
     (said,) = unknown.complaints()
-    assert said.startswith("shell: how far it may be off is not known") and "elements twice as large" in said
+    assert said.startswith("shell: its error bar is not known") and "elements twice as large" in said
     assert not good.complaints() and not replace(both, uncertainty={}).complaints()
 
 

@@ -8,7 +8,6 @@ import pytest
 from sheetbench_felupe import LAWS as FELUPE_LAWS
 from sheetbench_felupe import MODEL as FELUPE
 
-from comparisons.comparison.comparison import error
 from comparisons.external import answer as external
 from comparisons.external.answer import ExternalCode
 from comparisons.external.bricks import Bricks, forces, held, materials
@@ -19,6 +18,7 @@ from comparisons.external.calculix.model import deck
 from comparisons.external.kratos.model import MODEL as KRATOS
 from comparisons.external.kratos.model import Triangles, problem
 from comparisons.external.output import Failed, output_of
+from comparisons.sweep.differences import error
 from fem_reference.surface.biquadratic import areas
 from fem_reference.surface.mesh import plan_of
 from fem_reference.verification.strain_laws import RUBBERS

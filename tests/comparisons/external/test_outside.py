@@ -46,10 +46,10 @@ def installed(tmp_path, monkeypatch):
     (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: outside\nVersion: 1.0\n")
     (metadata / "entry_points.txt").write_text(ENTRY)
     monkeypatch.setattr(sys, "path", [str(tmp_path), str(DOCS), *sys.path])
-    plugins._found.cache_clear()
+    plugins._entry_points.cache_clear()
     solvers.warm.cache_clear()
     yield
-    plugins._found.cache_clear()
+    plugins._entry_points.cache_clear()
     solvers.warm.cache_clear()
 
 
@@ -131,9 +131,9 @@ def shipped(monkeypatch):
         "entry-points"
     ]
     monkeypatch.setattr(plugins, "OURS", {**plugins.OURS, **known[plugins.GROUP]})
-    plugins._found.cache_clear()
+    plugins._entry_points.cache_clear()
     yield known[plugins.GROUP]
-    plugins._found.cache_clear()
+    plugins._entry_points.cache_clear()
 
 
 def test_the_plug_ins_of_the_examples_are_models_by_their_names(shipped):
@@ -142,7 +142,7 @@ def test_the_plug_ins_of_the_examples_are_models_by_their_names(shipped):
         assert plugins.plugin(name).name == name
         file = f"{PLUG_INS}/sheetbench_{name}.py:MODEL"
         assert plugins.plugin(file).settings == plugins.plugin(name).settings
-        assert plugins._loaded(file) is plugins._loaded(file)
+        assert plugins._load(file) is plugins._load(file)
     assert isinstance(plugins.plugin("felupe"), ExternalCode)
 
 

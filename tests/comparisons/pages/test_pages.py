@@ -128,7 +128,7 @@ def test_the_page_is_opened_where_that_is_asked(tmp_path, capsys, monkeypatch, t
     assert run("report", str(tmp_path)) == 0 and opened_pages == []
     assert run("report", str(tmp_path), "--open") == 0
     assert opened_pages == [(tmp_path / "report.html").as_uri()]
-    assert ("There is no browser here" in capsys.readouterr().err) is not there
+    assert ("No browser was found" in capsys.readouterr().err) is not there
 
 
 def test_damage_costs_a_sentence(tmp_path, capsys):

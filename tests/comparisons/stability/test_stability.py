@@ -69,7 +69,7 @@ def test_a_fault_of_the_program_is_no_verdict_on_a_model(store, monkeypatch):
     assert {row[1]: row[2:6] for row in summary(found).rows}["lumped"] == ("–",) * 4
     assert "a fault of the program: ValueError: wrong dimensions" in found.complaints()[0]
     assert found.result() == "1 of 2 cells hold" and not found.succeeded
-    looks = [tiles.look(tiles.outcome({"status": status})) for status in [*Status, "refused", "lost"]]
+    looks = [tiles.tile_style(tiles.outcome({"status": status})) for status in [*Status, "refused", "lost"]]
     assert all(one["facecolor"] != "#ffffff" or one["hatch"] for one in looks)  # white: nothing was run
 
 

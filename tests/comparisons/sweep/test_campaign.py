@@ -101,7 +101,7 @@ def test_a_run_that_takes_its_process_down_is_the_only_one_lost(store):
     first, *others = (task("square", x=x, seconds=0.6 / x) for x in (1.0, 2.0, 3.0))
     found = carry_out([first, task("die"), *others], store, workers=2)
     assert [outcome.status for outcome in found] == ["done", "lost", "done", "done"]
-    assert "died" in found[1].message
+    assert "crashed" in found[1].message
 
 
 def test_timed_runs_go_alone_and_on_one_thread(store, tmp_path):

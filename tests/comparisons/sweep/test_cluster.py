@@ -64,7 +64,7 @@ def test_the_last_workers_death_ends_a_campaign_and_the_rows_are_kept(store, tim
             try:
                 wait_for(lambda: local.scheduler_info["workers"])
                 lost = "worker of the timed runs, tcp.* is gone" if timed else "cluster has no worker left"
-                refused = pytest.raises(BadInput, match=f"the {lost}; 1 of 2 runs are kept, and the same")
+                refused = pytest.raises(BadInput, match=f"the {lost}; 1 of 2 runs are kept: run the same")
                 with pool_of(local.scheduler_address) as pool, refused:
                     if timed:
                         assert pool.one_worker

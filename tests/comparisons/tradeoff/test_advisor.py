@@ -10,12 +10,12 @@ from answers import once
 from cases import sheet
 from commands import json_of
 
-from comparisons.comparison.comparison import error
 from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Elements
 from comparisons.sweep import here as table
+from comparisons.sweep.differences import error
 from comparisons.sweep.front import cheapest
 from comparisons.tradeoff.advisor import advise
 from sheetbench import scenes

@@ -119,5 +119,5 @@ def test_times_under_load_and_samples_that_scatter_are_told(monkeypatch):
     costs = [{"load_average": average, "machine": {"cpu_count": 4}} for average in (3.0, None, 20.0)]
     assert load.warnings([{"load_average": 2.0}, {}, *costs[:2]], [(1.0, 1.9), (1.0,)]) == []
     busy, wide = load.warnings(costs[::2], [(1.0, 3.0), (1.0, 1.1)])
-    assert busy.startswith("1 of 2 times are too long: the machine was busy (load 20 on 4 processors")
+    assert busy.startswith("1 of 2 times are not reliable: other programs were running (load 20 on 4 ")
     assert wide.startswith("1 of 2 timings vary by more than a factor of 2, by up to 3")

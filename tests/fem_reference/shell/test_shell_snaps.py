@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 
 import fem_reference
 import lumped
-from comparisons.comparison.comparison import error
+from comparisons.sweep.differences import error
 from fem_reference.discrete.items import Dead
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import DiscreteShell
@@ -171,7 +171,7 @@ def test_a_compressed_strip_leaves_the_saddle_for_the_buckled_state():
 
 
 def test_a_saddle_that_no_push_leaves_is_told(monkeypatch):
-    monkeypatch.setattr(pseudo_transient._Creep, "_pushed", lambda creep, state, step: state)
+    monkeypatch.setattr(pseudo_transient._Creep, "_push", lambda creep, state, step: state)
     flat = strip(shorter=1.5 * np.pi**2 * THICKNESS**2 / (12.0 * SIDE))
     with pytest.raises(LoadStepFailed, match="does not leave it"):
         relax(Path(flat, DirectSolver(), flat.start), 0.0)

@@ -17,6 +17,7 @@ from fem_reference.verification import (
     strips,
     verify,
 )
+from fem_reference.verification.cases import Case
 from fem_reference.verification.rows import absolutely, relatively
 
 ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws", "rubber")  # test_locking, test_strain_laws
@@ -126,7 +127,7 @@ def test_document_has_the_promised_keys(capsys):
 
 def test_a_row_that_fails_leaves_with_3(monkeypatch, capsys):
     row = relatively("w", "one", 1.0, "A 1900", 1.1, 0.05)
-    monkeypatch.setitem(CASES, "wrong", ("a wrong one", lambda: iter([row])))
+    monkeypatch.setitem(CASES, "wrong", Case("a wrong one", lambda: iter([row])))
     assert command("verify", "--case", "wrong", "--case", "patch") == 3
     printed, right = capsys.readouterr(), len(rows_of("patch"))
     assert "wrong: w: 1.1 instead of 1" in printed.err

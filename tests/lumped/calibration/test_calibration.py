@@ -178,4 +178,4 @@ def test_a_bend_that_costs_nothing_is_refused():
     costless = moduli.Moduli(stretch, bend, np.ones((1, 1, 2)), np.zeros((1, 1)), 0.0 * bend)
     springs = Springs.made(1e-3, area=-1.0)
     with pytest.raises(BadInput, match="the cell's energy is not positive"):
-        report("test", each_cell(SEED.sheet, SEED.material, (9, 9, 2)), springs, whole=costless)
+        report("test", each_cell(SEED.sheet, SEED.material, (9, 9, 2)), springs, cell_moduli=costless)

@@ -8,7 +8,7 @@ from dynamic_cases import make_scene, run, springs, system
 
 import lumped
 from lumped.dynamics import INTEGRATORS
-from lumped.dynamics.explicit.step_limit import measured_limit, step_limit, turn_limit
+from lumped.dynamics.explicit.step_limit import step_limit, turn_limit
 from lumped.dynamics.implicit.esdirk import ERROR
 from lumped.dynamics.integrator import StepFailed
 from lumped.dynamics.runs.plan import plan_run
@@ -100,7 +100,6 @@ def test_explicit_step_limit_agrees_with_theory(ratio):
     assert limit.step >= 0.9999 * 2.0 / frequency * (np.sqrt(1.0 + ratio**2) - ratio)  # central differences
     assert not grows(equations, rest, 0.995 * limit.step)
     assert grows(equations, rest, 1.02 * limit.step, steps=2000)
-    assert measured_limit(equations, rest.u) == pytest.approx(limit.step, rel=0.03)
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 1.0, 5.0])

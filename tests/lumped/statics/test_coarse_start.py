@@ -25,7 +25,7 @@ def answers(scene, grid, monkeypatch, **options):
     """With a coarse start, and along the whole path."""
     springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, **options)
     started = lumped.solve(scene, springs)
-    monkeypatch.setattr(solver, "halved", lambda *_: None)
+    monkeypatch.setattr(solver, "coarser_springs", lambda *_: None)
     return started, lumped.solve(scene, springs)
 
 

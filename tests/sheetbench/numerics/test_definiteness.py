@@ -66,7 +66,7 @@ def test_descent_refuses_a_direction_along_which_the_energy_rises(monkeypatch):
     monkeypatch.setattr(factor, "solve", lambda b, enough, of=factor.solve: -of(b))
     monkeypatch.setattr(energy_descent, "_definite_factor", lambda *given: (factor, 1))
     with pytest.raises(LoadStepFailed, match="not positive definite"):
-        energy_descent.settle(Path(problem, problem, problem.rest()), 1.0)
+        energy_descent.descend(Path(problem, problem, problem.rest()), 1.0)
 
 
 @pytest.mark.parametrize("layers", [2, 3, 4])

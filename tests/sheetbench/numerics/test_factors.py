@@ -112,8 +112,8 @@ def test_parts_are_cut_where_they_share_few_unknowns_and_not_cell_by_cell():
     corners = np.stack([9 * (x + i) + y + j for i in (0, 1) for j in (0, 1)], axis=1)[there]
     number = np.unique(np.where(corners < 9 * 20, corners, -1), return_inverse=True)[1].reshape(-1, 4) - 1
     fronts = Pattern(number, size=number.max() + 1, places=np.column_stack([x, y])[there]).fronts
-    assert 2 in fronts.own  # the neck's; halves of equally many cells have a column of nine between them
-    assert len(fronts.own) < len(number) / 8
+    assert 2 in fronts.pivots  # the neck's; halves of equally many cells have a column of nine between them
+    assert len(fronts.pivots) < len(number) / 8
 
 
 def test_factors_that_grow_are_refused():
@@ -187,7 +187,7 @@ def test_factors_of_a_large_lattice_take_no_library(fine, monkeypatch):
         tracemalloc.stop()
     matrix = factors.matrix
     # the factors and the matrix; in the making what fronts leave waits beside them, and the widest front
-    assert held < 8 * fine.system._fronts.kept[-1] + 1.1 * matrix.data.nbytes
+    assert held < 8 * fine.system._fronts.columns[-1] + 1.1 * matrix.data.nbytes
     assert peak < 2.5 * held
     b = np.random.default_rng(3).standard_normal(matrix.shape[0])
     assert np.abs(matrix @ factors.solve(b) - b).max() < 1e-9

@@ -75,7 +75,7 @@ SAID: dict[str, tuple[Callable[[], Any], list[str]]] = {
         ["3 modes of shell", "[Hz]"],
     ),
     "spectra": (lambda: SPECTRA, ["two-edges-clamped", "lumped", "[Hz]", "and 53 more rows"]),
-    "advice": (lambda: sb.tradeoff(SCENE, tolerance=0.1), ["two-edges-clamped", "Quick solves", "yes"]),
+    "advice": (lambda: sb.tradeoff(SCENE, tolerance=0.1), ["two-edges-clamped", "Trial solves", "yes"]),
     "tradeoff": (lambda: TRADEOFF, ["Observed orders", "lumped", "100.00", "yes"]),
     "mesh": (lambda: lattice().mesh, ["70 points", "quad", "displacement"]),
     "report": (lambda: both().report(), ["Displacement of the mid-surface", "P4  ", "converged"]),

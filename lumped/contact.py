@@ -251,9 +251,7 @@ class Contact(LatticeItem):
 
     def rounding(self, at: Placed) -> float:
         touched = self._pressed(at, tangent=True).slope.sum(axis=(2, 3))
-        *wide, layer_distance = self._lattice.spacing
-        lever = 1.0 + 0.25 * self.bent * max(wide) / layer_distance  # by which directors lift a cell's middle
-        return lever**2 * self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
+        return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
     def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
         """Return the state of contact at an equilibrium and the pressure (n,) [Pa] at the masses."""

@@ -164,7 +164,7 @@ class Touching(SheetItem):
 
     def rate(self, shape: SheetShape, low: Touching, high: Touching, over: float) -> np.ndarray:
         """Return the derivative of the force (N,) by what differs between two, `over` which they differ:
-        their obstacle's place and size, the offset, the stiffness. Where the sheet touches stays."""
+        their obstacle's place and size, the offset, the stiffness. The patch stays."""
         found, (_, load, slope) = self._pressed(shape)
         stiffer = copy(self)
         stiffer.full = (high.full - low.full) / over

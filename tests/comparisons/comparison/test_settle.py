@@ -96,6 +96,6 @@ def test_models_that_begin_flat_and_options_without_effect_are_refused(capsys):
 
 def test_a_motion_that_ends_early_is_said(monkeypatch):
     early = lambda *_, **__: (None, "its motion did not come to rest: inverted: refine the grid")  # noqa: E731
-    monkeypatch.setattr("comparisons.comparison.comparison.settled", early)
+    monkeypatch.setattr("comparisons.comparison.settle.settled", early)
     found = compare("one-edge-clamped", Lattice(3), elements=2, settle=True)
     assert all("did not come to rest" in one.message for one in found.solutions)

@@ -29,7 +29,7 @@ answer = once(solvers.solve)  # one for all tests: what is looked at is what the
 def clock(monkeypatch):
     """Every solve takes what its size says, however busy the machine is."""
 
-    def answer_in_time(model, name=""):
+    def answer_in_time(model, name="", near=None):
         solution = replace(answer(model), model=name or model.spec.model)
         seconds = SECONDS * solution.unknowns * (1 + solution.iterations)
         return replace(solution, solve_seconds=seconds)

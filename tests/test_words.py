@@ -9,8 +9,6 @@ from english import KINDS, accepted, findings
 from numpydoc.docscrape import get_doc_object
 from numpydoc.validate import validate
 
-pytestmark = pytest.mark.nightly  # until all three packages are rewritten
-
 PACKAGES = ("sheetbench", "lumped", "fem_reference")
 AT_128CD25B = {  # clauses of each kind in the three packages at that commit, by english.findings
     "return what": 57,

@@ -100,15 +100,14 @@ class SheetSensitivity:
         return [*self.fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> SheetGradient:
-        """Return the derivatives of a J with the derivatives (p, 3) by the displacement at plan points (p,
-        2)."""
+        """Return the derivatives of a J with ∂J/∂u (p, 3) at plan points (p, 2)."""
         element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
         out = np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
         return self.pullback(out)
 
     def pullback(self, by_displacement: np.ndarray) -> SheetGradient:
-        """Return the derivatives of a J with the derivatives (n, 3) by the nodes' displacement."""
+        """Return the derivatives of a J with ∂J/∂u (n, 3) at the nodes."""
         sheet, given = self.sheet, np.zeros(self.sheet.size)
         sheet.displacement(given)[:] = by_displacement
         with one_blas_thread():

@@ -310,7 +310,7 @@ class Problem(Structure[LatticeState, Residual]):
         return state.u, Drive(load_factor)
 
     def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
-        return state._replace(residual=None), 0.0
+        return state._replace(residual=None), self.internal(state.u, 1.0)[0]
 
     def iterated(self, blocks: np.ndarray, near: Factor, rows: np.ndarray) -> np.ndarray | None:
         return iterated(self.system.matrix(blocks), near, rows) if self._iterates else None

@@ -276,8 +276,8 @@ def test_ball_is_felt_wherever_masses_are(at, rigid, side):
 
 
 def test_residuals_of_rounding_under_a_ball_are_known_as_such():
-    """Directors lift the middle of a cell of 15 layer distances: 1e-11 of the load was asked, and 3e-11 left
-    for 1 949 factorisations."""
+    """Directors lift the middle of a cell of 15 layer distances: 1e-11 of the load was asked, and rounding
+    left 3e-11 for 1 949 factorisations."""
     solution = solve(pressed_ball((0.08, 0.08), 1.5e-3), (10, 10, 2))
     assert solution.status is Status.CONVERGED
     assert solution.iterations <= 40

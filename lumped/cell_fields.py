@@ -201,8 +201,7 @@ class CellFields:
         return assembly
 
     def complete(self, fields: Fields, assembly: Assembly) -> Assembly:
-        """Return the lattice with springs of the mid-surface, of negligible stiffness where it has none:
-        other values of the fields can need them."""
+        """Return the lattice with springs of the mid-surface, as other values of the fields can need them."""
         if len(assembly.springs[2]):
             return assembly
         own = self.springs(fields)

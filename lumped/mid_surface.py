@@ -36,7 +36,7 @@ class MidSurface:
     Parameters
     ----------
     lattice : Lattice
-        Lattice; the masses around the points are searched once for it.
+        Lattice; the shares of its masses are kept for equal points.
     points : ndarray of shape (n, 2)
         Plan points [m].
     order : int, default 3
@@ -52,13 +52,11 @@ class MidSurface:
         self._shares = _shares(lattice, np.asarray(points, dtype=float).reshape(-1, 2), order)
 
     def of(self, field: np.ndarray) -> np.ndarray:
-        """Return the values (n, 3) at the points of a field of vectors (masses and more, 3) over the
-        masses."""
+        """Return the values (n, 3) at the points of a field of vectors (masses and more, 3)."""
         return np.asarray(self._shares @ field[: self._shares.shape[1]])
 
     def matrix(self, size: int) -> sp.csr_array:
-        """Return the map of displacements (size, 3) to values at the points, (3 points, 3 size), both
-        flat."""
+        """Return the map of flat displacements (size, 3) to flat values, (3 points, 3 size)."""
         points, masses = self._shares.shape
         wider = sp.csr_array((points, size - masses))
         return sp.csr_array(sp.kron(sp.hstack([self._shares, wider]), sp.eye_array(3)))

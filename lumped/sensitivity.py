@@ -67,8 +67,7 @@ class Differentiable:
         return self._plain.plain
 
     def at(self, points: np.ndarray) -> Any:
-        """Return the sparse map (3 p, 3 n), both flat, of displacements to displacements at plan points (p,
-        2)."""
+        """Return the sparse map (3 p, 3 n), both flat, of displacements to values at plan points (p, 2)."""
         return MidSurface(self._plain.problem.assembly.lattice, points).matrix(len(self._plain.u))
 
     def solve(self, values: Mapping[str, Any]) -> np.ndarray:

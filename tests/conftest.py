@@ -51,7 +51,7 @@ def quick(monkeypatch):
     """Answers without a solver; a test may put its own in."""
     answers: dict[str, Solution] = {}
 
-    def answer(ask, name=""):
+    def answer(ask, name="", near=None):
         model = ask.spec.model
         size = -0.01 if model == "lumped" else -0.0101
         return answers.get(model) or fake_solutions.solution(ask.scene, name or model, size)

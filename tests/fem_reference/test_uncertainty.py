@@ -186,7 +186,7 @@ def by_mesh(monkeypatch):
     """Answers without a solver: the reference's error is 8 % at one element and falls like h²."""
     sizes = {"lumped": -0.0100, "limit": -0.0100, "share": 0.08}
 
-    def answer(model, name=""):
+    def answer(model, name="", near=None):
         if not isinstance(model.spec, Elements):
             return fake_solutions.solution(model.scene, name, sizes["lumped"])
         n = model.spec.elements

@@ -128,7 +128,7 @@ def test_a_solver_that_does_not_converge_leaves_with_3_and_keeps_its_answer(quic
 
 
 def test_what_is_finished_is_kept_when_a_later_model_fails(monkeypatch, tmp_path, capsys):
-    def answer(model, name=""):
+    def answer(model, name="", near=None):
         if model.spec.model == "shell":
             raise KeyboardInterrupt
         return fake_solutions.solution(model.scene, name)

@@ -1,13 +1,13 @@
 """Derivatives of a natural frequency of plate or shell by the numbers of its scene.
 
-Of K φ = ω² M φ with φᵀ M φ = 1, where K is the Hessian H and what |d| = 1 adds to it, μ = −R_d·d,
+A mode φ has K φ = ω² M φ and φᵀ M φ = 1, where K is the Hessian H plus μ = −R_d·d of |d| = 1, and
 
     dω² = φᵀ (∂H/∂θ − ω² ∂M/∂θ) φ + Σ |φ_d|² dμ + (∂/∂q φᵀHφ + 2 ν φ_d)·dq,
 
-ν = −d·(H + μ − ω²M) φ being what holds φ_d in the plane across d, which turns. As derivatives of an energy
-are symmetric, ∂/∂q φᵀHφ is that of H φ along φ, and φᵀ ∂H/∂θ φ that of φ·∂R/∂θ: differences between both
-sides of q. dq is the equilibrium's own (`fem_reference.sensitivity`); about the flat sheet there is none.
-Source: Fox and Kapoor, AIAA Journal 6 (1968) 2426, for a constant K.
+ν = −d·(H + μ − ω²M) φ being the force that keeps φ_d in the plane across d, which turns. Derivatives of an
+energy are symmetric: ∂/∂q φᵀHφ and φᵀ ∂H/∂θ φ are the derivatives of H φ and φ·∂R/∂θ along φ, differences
+between both sides of q. dq is the equilibrium's own (`fem_reference.sensitivity`); about the flat sheet there
+is none. Source: Fox and Kapoor, AIAA Journal 6 (1968) 2426, for a constant K.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class FrequencyGradient(SheetGradient):
 def _of_shape(
     of: SheetSensitivity, mode: np.ndarray, squared: float, scale: float, third: np.ndarray
 ) -> Term:
-    """Return what μ and the equilibrium's own change give, of the derivative (N,) of φᵀHφ by q."""
+    """Return the term of μ and of the equilibrium's own change in the derivative (N,) of φᵀHφ by q."""
     sheet, first = of.sheet, of.sheet.first_director
     directors, turned = sheet.directors(of.shape.q), mode[first:].reshape(-1, 3)
     along = multiplier(directors, sheet.forces(of.shape)[first:].reshape(-1, 3))
@@ -75,7 +75,7 @@ def _of_shape(
 
 
 def _inertia(of: SheetSensitivity, mode: np.ndarray, values: Values) -> np.ndarray:
-    """Return φᵀMφ (m, 9) at the Gauss points of a sheet of these constants."""
+    """Return φᵀMφ (m, 9) at the Gauss points of a sheet with the given constants."""
     constants, sheet = constants_with(values), of.sheet
     u, d = (AT_GAUSS[0] @ part for part in np.split(sheet.surface_change(mode), 2, axis=1))
     moved, mixed, turned = (sheet.element.areas * np.sum(a * b, axis=-1) for a, b in ((u, u), (u, d), (d, d)))

@@ -1,6 +1,6 @@
 """Derivatives of a plate's or shell's equilibrium by the numbers of its scene, adjoint and forward.
 
-At an equilibrium Zᵀ R(q, θ) = 0, with what is prescribed at δ(θ) (`discrete.sheet`). A function J of the
+An equilibrium has Zᵀ R(q, θ) = 0, with prescribed displacements δ(θ) (`discrete.sheet`). A function J of the
 displacement has, with one solution for all θ,
 
     (Zᵀ K Z)ᵀ μ = −Zᵀ ∂J/∂q,   λ = Z μ,     dJ/dθ = λ·∂R/∂θ + (∂J/∂q + Kᵀ λ)·∂δ/∂θ,
@@ -9,10 +9,10 @@ and a change of θ moves the sheet by
 
     (Zᵀ K Z) x = −Zᵀ (∂R/∂θ + K ∂δ/∂θ),     du = Z x + ∂δ/∂θ.
 
-By the constants of the sheet λ·∂R/∂θ is a power at the Gauss points with exact derivatives
-(`surface.constants`), which summed over elements are those by a field of one value an element; a scene's own
-follow by the chain rule. Other numbers change loads, supports, chains and natural strains: these are made
-anew on both sides, most of them linear. What touches an obstacle goes on touching it.
+For the sheet's constants λ·∂R/∂θ is a power at the Gauss points with exact derivatives (`surface.constants`);
+its sum over an element is the derivative by a field with one value an element, and a scene's own follow by
+the chain rule. Other numbers change loads, supports, chains and natural strains, made anew on both sides,
+most of them linear. Points that touch an obstacle go on touching it.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class SheetSensitivity:
 
     @cached_property
     def factor(self) -> Factor:
-        """Factors of that. Raises NoEquilibrium where it is singular or, of dead loads, not stable."""
+        """Factors of Zᵀ K Z. Raises NoEquilibrium where it is singular or, of dead loads, not stable."""
         return self._factor(self.matrix)
 
     @cached_property
@@ -84,7 +84,7 @@ class SheetSensitivity:
         return self.values_of(self.scene)
 
     def values_of(self, scene: Scene) -> Values:
-        """Return those of a scene's sheet."""
+        """Return the constants of a scene's sheet at the Gauss points."""
         return values_of(scene, self.sheet.plan.corners, not self.sheet.linear)
 
     @cached_property
@@ -100,14 +100,14 @@ class SheetSensitivity:
         return [*self.fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> SheetGradient:
-        """Return the derivatives of a J that has these by the displacement at plan points, (p, 2), (p, 3)."""
+        """Return the derivatives of a J with ∂J/∂u (p, 3) at plan points (p, 2)."""
         element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
         out = np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
         return self.pullback(out)
 
     def pullback(self, by_displacement: np.ndarray) -> SheetGradient:
-        """Return the derivatives of a J that has these by the nodes' displacement, (n, 3)."""
+        """Return the derivatives of a J with ∂J/∂u (n, 3) at the nodes."""
         sheet, given = self.sheet, np.zeros(self.sheet.size)
         sheet.displacement(given)[:] = by_displacement
         with one_blas_thread():
@@ -152,7 +152,7 @@ class SheetSensitivity:
         return out
 
     def power(self, moved: np.ndarray, values: Values, names: Iterable[str] = ()) -> dict[str, np.ndarray]:
-        """Return λ·∂R/∂c (m, 9) of λ (N,) by these constants at the Gauss points, by all unless given."""
+        """Return λ·∂R/∂c (m, 9) of λ (N,) by constants at the Gauss points, by all or by the given names."""
         sheet, shape, element = self.sheet, self.shape, self.sheet.element
         rate = element.at_points(element.step(shape.operator, sheet.gather(moved)))
         pull, turn = np.zeros((2, *element.areas.shape))  # of the weight on λ, per mass
@@ -168,7 +168,7 @@ class SheetSensitivity:
         return by_values(of, values, names)
 
     def ends(self, name: str) -> tuple[tuple[Scene, Scene], float]:
-        """Return the scene on both sides of a parameter, and how far apart these are. Raises BadInput."""
+        """Return the scene on both sides of a parameter, and their distance in it. Raises BadInput."""
         name = short_name(name)
         found = parameter(self.scene, name)
         step = STEP * (abs(found.value) or 1.0)
@@ -180,8 +180,8 @@ class SheetSensitivity:
     def rates(
         self, ends: tuple[Scene, Scene], over: float, weight: bool = True, whole: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return ∂R/∂θ (N,) without what the constants of the elements do, unless it is the whole, and
-        ∂δ/∂θ (N,). weight: whether with loads and the weight of the sheet."""
+        """Return ∂R/∂θ (N,) and ∂δ/∂θ (N,) between two scenes that differ by `over`. weight: whether with
+        loads and the weight of the sheet. whole: whether with the elements' constants, too."""
         sheet, shape, placed = self.sheet, self.shape, np.zeros(self.sheet.size)
         sides = [sheet.with_scene(end) for end in ends]
         forces = []
@@ -202,7 +202,7 @@ class SheetSensitivity:
         return rate, placed
 
     def _unstrained(self, side: DiscreteShell) -> np.ndarray:
-        """Return less the natural strains of a sheet."""
+        """Return the negative natural strains of a sheet."""
         none = np.zeros_like(self.shape.strain)
         return none if side.natural is None else none - side.natural.at(self.shape.at)
 
@@ -226,8 +226,8 @@ Term = tuple[SheetSensitivity, np.ndarray, np.ndarray]
 
 
 class SheetGradient(Mapping[str, Any]):
-    """The derivatives of a J by name, found when they are asked for: of its powers at the Gauss points, and
-    of states with vectors λ and ∂J/∂δ (N,)."""
+    """Derivatives of a J by name, computed on access from its powers at the Gauss points, and from states
+    with vectors λ and ∂J/∂δ (N,)."""
 
     def __init__(self, points: Mapping[str, np.ndarray], *terms: Term):
         self._points, self._terms = points, terms

@@ -1,10 +1,10 @@
 """The scene's payloads on a lattice (`sheetbench.scenes.objects.masses`).
 
 Each mass of the lattice takes of a payload at a point the share that it would take of a force there:
-bilinearly among the columns of the cell, equally among the layers, so that the mass and its first moment are
-those of the payload; of one spread over a part of the sheet, as an area load is shared. The moments of
-inertia J of such a body act on the rates of the columns' directors, d = bᵀ x of a column's layers x, each by
-its share s of the area:
+bilinearly among the columns of the cell, equally among the layers, so that the payload's mass and first
+moment are kept. A payload spread over a part of the sheet is shared as an area load is. Its moments of
+inertia J act on the rates of the columns' directors, d = bᵀ x of a column's layers x, each by its share s of
+the area:
 
     M = s b bᵀ ⊗ J
 
@@ -23,7 +23,7 @@ from sheetbench.scenes import Scene
 
 
 def point_masses(scene: Scene, lattice: Lattice) -> np.ndarray:
-    """What every mass of a lattice takes of the payloads, (n,) [kg]."""
+    """Return the mass (n,) [kg] that the payloads add to every mass of a lattice."""
     out = np.zeros(lattice.mass_count)
     for payload in scene.masses:
         if payload.at is not None:
@@ -35,7 +35,7 @@ def point_masses(scene: Scene, lattice: Lattice) -> np.ndarray:
 
 
 def rotary_masses(scene: Scene, lattice: Lattice) -> sp.bsr_array:
-    """Return what layers share for the bodies' moments of inertia, (3 n, 3 n) [kg] in blocks of 3 × 3."""
+    """Return the layers' mass matrix of the bodies' moments of inertia, (3 n, 3 n) [kg], in 3 × 3 blocks."""
     count, layers = lattice.mass_count, lattice.grid[2]
     heights = lattice.positions[:layers, 2]
     lever = heights / (heights @ heights)
@@ -49,10 +49,10 @@ def rotary_masses(scene: Scene, lattice: Lattice) -> sp.bsr_array:
 
 
 def pairs_of(blocks: sp.bsr_array) -> tuple[np.ndarray, np.ndarray]:
-    """The masses, rows and columns (k,), of a matrix's blocks."""
+    """Return the masses, rows and columns (k,), of a matrix's blocks."""
     return np.repeat(np.arange(len(blocks.indptr) - 1), np.diff(blocks.indptr)), blocks.indices
 
 
 def _shares(lattice: Lattice, at: np.ndarray) -> np.ndarray:
-    """What of a force at a plan point (2,) [m] every mass takes, (n,)."""
+    """Return the share of every mass in a force at a plan point (2,) [m], (n,)."""
     return MidSurface(lattice, at, order=1).shared(np.ones((1, 1)), lattice.mass_count)[:, 0]

@@ -189,7 +189,7 @@ class CellFields:
         return assembly
 
     def _grown(self, families: AllFamilies, fields: Fields) -> Assembly:
-        """Return the lattice of these springs in the natural state of fields."""
+        """Return the lattice with springs `families` in the natural state of fields."""
         assembly, natural = copy(self.assembly), self.assembly.natural
         assembly.natural = None
         assembly._take(families)
@@ -201,7 +201,7 @@ class CellFields:
         return assembly
 
     def complete(self, fields: Fields, assembly: Assembly) -> Assembly:
-        """Return the lattice of these fields with springs of the mid-surface, which other values need."""
+        """Return the lattice with springs of the mid-surface, as other values of the fields can need them."""
         if len(assembly.springs[2]):
             return assembly
         own = self.springs(fields)
@@ -211,8 +211,8 @@ class CellFields:
     def powers(
         self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray], v: np.ndarray
     ) -> np.ndarray:
-        """Return the derivatives of v·(f − f_int) by a field, of the complete lattice of these fields; by:
-        the derivatives of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
+        """Return the derivatives of v·(f − f_int) by a field, of the complete lattice `assembly`; by: the
+        derivatives of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
         base, found = fields.get(name, self.base[name]), np.zeros(1)
         if name != "density":
             rates = self._rates(name, fields, assembly, [one.shape for one in by])
@@ -226,7 +226,7 @@ class CellFields:
     def _rates(
         self, name: str, fields: Fields, assembly: Assembly, shapes: list[tuple[int, ...]]
     ) -> sp.csr_array:
-        """Return the rates of all constants, of these shapes, by a field; kept at the scene's own values."""
+        """Return the rates of all constants, in arrays of `shapes`, by a field; the scene's own are kept."""
         others = fields.keys() - {name} if name == "young" else fields.keys()
         own, kept = others & {*OF_SECTION, *STATE}, self._kept
         if own or name not in kept:

@@ -1,21 +1,21 @@
 """Contact of the sheet with one rigid obstacle: a penalty on the mid-surface, offset by half the thickness.
 
-With δ the depth of a place, o = h/2 + δ₀ less its distance from the obstacle
-(`sheetbench.scenes.meaning.distances`),
+A place has the depth δ, o = h/2 + δ₀ less its distance from the obstacle
+(`sheetbench.scenes.meaning.distances`), and contact the
 
     energy ∫ ψ(δ) dA,   force ∫ p n dA,  p = ψ',   tangent ∫ p' n nᵀ − p ∂n/∂x dA over the patch {δ > 0}
 
-Where δ is linear between corners of cells, on a plane under a sheet that is flat when nothing acts on it, its
+On a plane under a sheet that is flat when nothing acts on it δ is linear between corners of cells: its
 deepest points are corners, columns of masses, and each has a quarter of a cell's area. Else the patch may be
 anywhere in a cell and much smaller than it: the surface is curved at rest (`cell_surface`), δ is known at 3 ×
-3 points of each part of a cell, parts no longer than R/2, and biquadratic between them, and the integral is
-that over the patch (`patch`), whose size and place follow the sheet: the patch of a cradle
-slides. At rest ψ = ½ k δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the
-thickness to give. In motion k is 0.065 ρ h ω_max² at most, cells are straight between masses, and the law is
-rounded over δ₁ = 0.3 h: ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than
-their tributary ones, so that a sheet which lands flat stays flat. Conserving midpoint steps have the mean
-force of Gonzalez (1996), from mean n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|².
-`docs/contact.md` has the reasons, and what energy they take.
+3 points of each part of a cell, parts no longer than R/2, and biquadratic between them, and the integral runs
+over the patch (`patch`), whose size and place follow the sheet: the patch of a cradle slides. At rest ψ = ½ k
+δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the thickness to give. Motion
+has k = 0.065 ρ h ω_max² at most, cells straight between masses, and a law rounded over δ₁ = 0.3 h: ψ = k
+(⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than their tributary ones, so that a
+sheet which lands flat stays flat. Conserving midpoint steps have the mean force of Gonzalez (1996), from mean
+n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|². `docs/contact.md` has the reasons, and what
+energy they take.
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ TO_CORNERS = np.kron(*2 * [np.array([[1, 0, 0], [0.5, 0, 0.5], [0, 0, 1]])])  # 
 
 
 class Pressed(NamedTuple):
-    """Cells `of` that may touch, what their sides are (`CellSurface.vectors`), where their points (m, p) are,
-    and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives by depths (…, n, n)
-    [N/m], and the deepest place [m]."""
+    """Cells `of` that may touch, the vectors of their sides (`CellSurface.vectors`), their points (m, p)
+    beside the obstacle, and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives
+    by depths (…, n, n) [N/m], and the deepest place [m]."""
 
     of: Any
     sides: np.ndarray
@@ -214,8 +214,8 @@ class Contact(LatticeItem):
         np.add.at(blocks, self.slots[of][on], scale * of_masses)
 
     def _resisted(self, at: Placed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
-        """Return cells that may touch, how points move past the obstacle (m, p, 3) [m/s], and forces (m, p,
-        3) [N] of dashpot and friction with their derivatives by that (m, p, 3, 3)."""
+        """Return cells that may touch, velocities of points past the obstacle (m, p, 3) [m/s], and forces (m,
+        p, 3) [N] of dashpot and friction with their derivatives by velocity (m, p, 3, 3)."""
         pressed = self._pressed(at)
         speed = self.weights @ (v[self.nodes[pressed.of]] - self.obstacle.velocity(at[1].time))
         return pressed.of, speed, pressed.found.resistance(self._positive(pressed.load), speed)

@@ -1,4 +1,4 @@
-"""How an equilibrium depends on the numbers of its scene: by one solve with the tangent's factors.
+"""Derivatives of an equilibrium by the numbers of its scene, from one solve with the tangent's factors.
 
 At equilibrium the residual R(q, θ) = Tᵀ (f − f_int)(T q + g(θ), θ) is zero for every θ, so that with the
 tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/dθ + dg/dθ, one solve a parameter
@@ -7,12 +7,12 @@ tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/d�
     dJ/dθ = λ · ∂(f − f_int)/∂θ + ∂J/∂u · dg/dθ                                          (`pullback`).
 
 The derivatives by fields over the cells (`lumped.cell_fields`) are a sparse product of λ · ∂f_int/∂(constants
-of the springs), one loop with each law's own derivatives; those by E and ρ of an even sheet are its sums, and
-loads have theirs by λ alone. Other parameters of the scene have ∂R/∂θ as a central difference of the residual
+of the springs), one loop with each law's own derivatives; by E and ρ of an even sheet they are its sums, and
+by loads they need λ alone. Other parameters of the scene have ∂R/∂θ as a central difference of the residual
 at fixed q, of springs, supports and loads made anew on both sides, which a lattice keeps. The residual is
 linear in every spring constant, and its difference is exact but for rounding; in the thickness, ν, a layer
-distance, a curvature or a tilt its relative error is of order 1e-8. Obstacles go on touching the same masses,
-and a load at a line of the grid, where its shares have a kink, has the mean of both sides.
+distance, a curvature or a tilt its relative error is of order 1e-8. Masses that touch an obstacle go on
+touching it, and a load at a line of the grid, where its shares have a kink, has the mean of both sides.
 
 Names: the parameters of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …;
 "material.young" and "sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, …
@@ -67,7 +67,7 @@ Sides = tuple[list[tuple[Problem, Calibration]], float]  # as of `both_sides`
 
 class Plain:
     """A scene's lattice with its springs, and parts of its derivatives that do not depend on its shape.
-    calibrate: finds the springs of a changed scene; the same method without options does so by default."""
+    calibrate: finds the springs of a changed scene; by default the calibration's method without options."""
 
     _last: ClassVar[list[tuple[Any, Plain]]] = []
 
@@ -129,7 +129,7 @@ class Equilibrium:
     def of(
         cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
     ) -> Equilibrium:
-        """Return the derivatives at u of a scene's lattice with these springs."""
+        """Return the derivatives at u of a scene's lattice with the springs of a calibration."""
         return cls(Plain.of(scene, calibration, calibrate), u)
 
     @property

@@ -42,8 +42,15 @@ YOUNG = FIELD + "young"
 
 @dataclass(frozen=True)
 class Designs:
-    """displacement: (designs, n, 3) [m] of the masses, NaN where a design has no stable equilibrium; status:
-    of each."""
+    """Equilibria of many designs.
+
+    Parameters
+    ----------
+    displacement : ndarray of shape (designs, n, 3)
+        Displacement [m] of the masses, NaN where a design has no stable equilibrium.
+    status : list of Status
+        Status of each design.
+    """
 
     displacement: np.ndarray
     status: list[Status]
@@ -57,8 +64,31 @@ def solve_many(
     calibrate: Calibrate | None = None,
     workers: int | None = None,
 ) -> Designs:
-    """Return the equilibria of designs, each sought first from the scene's own. designs: values by name, as
-    `Differentiable.solve` takes them, with a leading axis. workers: threads, one a core unless given."""
+    """Return the equilibria of many designs of one scene, each sought first from the scene's own.
+
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        Scene with a static answer, the name of one in the catalogue, or the path of its file.
+    designs : dict of str to ndarray
+        Values by name as in `Differentiable.solve`, with a leading axis over the designs.
+    calibration : Calibration, optional
+        Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
+    calibrate : callable, optional
+        Function that calibrates a changed scene; by default the calibration's method without options.
+    workers : int, optional
+        Number of threads, by default one a core.
+
+    Returns
+    -------
+    Designs
+        Displacements [m] and status.
+
+    Raises
+    ------
+    BadInput
+        For numbers of designs that differ between names.
+    """
     sheet = Differentiable(scene, calibration, calibrate)
     counts = {len(values) for values in designs.values()}
     if len(counts) != 1:

@@ -1,14 +1,14 @@
 """The mid-surface at plan points: the mean of the layers, through the masses around by polynomials.
 
 Between masses the surface is the cubic through the nearest four lines of the grid along x and along y (all
-of them where there are fewer): a sheet of curvature κ lies up to κ l²/8 beside a bilinear surface through
-masses l apart, at 9 × 9 masses of a sagging sheet 1 to 3 % of its sag, and more where cells are graded.
+of them where there are fewer): a bilinear surface through masses at the distance l is up to κ l²/8 off a
+sheet of curvature κ, at 9 × 9 masses of a sagging sheet 1 to 3 % of its sag, and more where cells are graded.
 
-On lattices with absent cells every cell has the quadric nearest to its masses and those of cells connected
-with it, up to REACH cells on, by least squares; masses count the more the nearer they are and the more sheet
-the cells around them have. The surface is a mean of these, so that it is continuous: of the four cells around
-the nearest crossing of lines, weighed by how much sheet they have and by ½ ± the distance from the lines
-there, in cells, along x and y. In the middle of a cell it is that cell's, on a side of two the mean of both.
+On lattices with absent cells every cell has a quadric fitted by least squares to its own masses and to the
+masses of cells connected with it, up to REACH cells on; masses count the more the nearer they are and the
+more sheet the cells around them have. The surface is a mean of the quadrics of the four cells around the
+nearest crossing of lines, weighed by the cells' mass per area and by ½ ± the distance from the lines there,
+in cells, along x and y. It is continuous: a cell's own quadric at its middle, the mean of both between two.
 
 A linear map of the masses' displacement; its transpose shares a force at a point among the masses around it,
 as loads do it among the four next to it (order 1).
@@ -31,31 +31,45 @@ ON_LINE = 1e-6  # of a cell's side
 
 
 class MidSurface:
-    """The mid-surface of a lattice at plan points (n, 2) [m], by polynomials of an order. Raises BadInput for
-    points off the sheet. What masses are around them is found once for a lattice."""
+    """Mid-surface of a lattice at plan points, by polynomials.
+
+    Parameters
+    ----------
+    lattice : Lattice
+        Lattice; the shares of its masses are kept for equal points.
+    points : ndarray of shape (n, 2)
+        Plan points [m].
+    order : int, default 3
+        Order of the polynomials between masses, 1 or 3.
+
+    Raises
+    ------
+    BadInput
+        For points off the sheet.
+    """
 
     def __init__(self, lattice: Lattice, points: np.ndarray, order: int = 3):
         self._shares = _shares(lattice, np.asarray(points, dtype=float).reshape(-1, 2), order)
 
     def of(self, field: np.ndarray) -> np.ndarray:
-        """Values (n, 3) at the points of a field of vectors over the masses, (masses and more, 3)."""
+        """Return the values (n, 3) at the points of a field of vectors (masses and more, 3)."""
         return np.asarray(self._shares @ field[: self._shares.shape[1]])
 
     def matrix(self, size: int) -> sp.csr_array:
-        """The map of displacements (size, 3) to values at the points, (3 points, 3 size), both flat."""
+        """Return the map of flat displacements (size, 3) to flat values, (3 points, 3 size)."""
         points, masses = self._shares.shape
         wider = sp.csr_array((points, size - masses))
         return sp.csr_array(sp.kron(sp.hstack([self._shares, wider]), sp.eye_array(3)))
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
-        """The transpose: values (n, k) at the points shared among the masses, (size, k)."""
+        """Return values (n, k) at the points shared among the masses, (size, k), by the transposed map."""
         masses = self._shares.shape[1]
         return np.pad(self._shares.T @ values, ((0, size - masses), (0, 0)))
 
 
 @cached(last=8, most=2**16, size=lambda lattice, points, _: points.nbytes + 8 * lattice.mass_count)
 def _shares(lattice: Lattice, points: np.ndarray, order: int) -> sp.csr_array:
-    """What share every mass has in the value at plan points (n, 2) [m], (n, masses). Raises BadInput for
+    """Return the share of every mass in the value at plan points (n, 2) [m], (n, masses). Raises BadInput for
     points off the sheet."""
     places = [lines.index(points[:, axis])[1] for axis, lines in enumerate(lattice.lines)]
     outside = np.max(np.abs(np.array(places) - 0.5), axis=0) > 0.5 + 1e-9
@@ -70,8 +84,8 @@ def _shares(lattice: Lattice, points: np.ndarray, order: int) -> sp.csr_array:
 
 
 def _of_columns(lattice: Lattice, rows: np.ndarray, over: np.ndarray, shares: np.ndarray) -> sp.csr_array:
-    """The map of the columns of masses at crossings of lines, rows (n, k) and over (n, l), with these shares
-    (n, k, l), of which every layer has as much; what is 0 is left out."""
+    """Return the map (n, masses) with shares (n, k, l) of the columns of masses at crossings of lines, rows
+    (n, k) and over (n, l), each divided equally among the layers, without zeros."""
     nodes, layers = lattice.columns()[rows[:, :, None], over[:, None, :]], lattice.grid[2]
     points = np.broadcast_to(np.arange(len(rows))[:, None, None, None], nodes.shape)
     each = np.broadcast_to(shares[..., None] / layers, nodes.shape)
@@ -96,8 +110,8 @@ def _near_rims(
 
     @cache
     def nearest(row: int, column: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Rows and columns of the lines that cross at the masses (k,) of a cell and those connected with it,
-        and the map from their values to the terms of the polynomial nearest to them, (terms, k)."""
+        """Return rows and columns of the lines that cross at the masses (k,) of a cell and of cells connected
+        with it, and the map from their values to the terms of the polynomial nearest to them, (terms, k)."""
         rows, over = _corners(per_area, row, column)
         at = places(np.stack([x.at[over], y.at[rows]], axis=1), row, column)
         near = np.sqrt(around[rows, over]) / (0.5 + (at**2).sum(axis=1))
@@ -122,7 +136,7 @@ def _near_rims(
 
 def _own_cells(lattice: Lattice, wide: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Rows and columns (n, 2) of the cells present in which, or on whose rims, plan points (n, 2) [m] lie;
-    wide: what the cells have, and nothing beyond. Raises BadInput where there is none."""
+    wide: mass per area of the cells, padded by zeros. Raises BadInput where there is none."""
     (column, x), (row, y) = (lines.index(points[:, axis]) for axis, lines in enumerate(lattice.lines))
     over, up = (np.where(at < ON_LINE, -1, np.where(at > 1.0 - ON_LINE, 1, 0)) for at in (x, y))
     beside = [np.stack([row + j * up, column + i * over], axis=1) for j, i in product((0, 1), (0, 1))]
@@ -134,8 +148,8 @@ def _own_cells(lattice: Lattice, wide: np.ndarray, points: np.ndarray) -> np.nda
 
 
 def _corners(per_area: np.ndarray, row: int, column: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rows and columns of the lines that cross at the corners of a cell, and of those that can be reached
-    from it over REACH sides."""
+    """Return rows and columns of the lines that cross at the corners of a cell and of the cells that can be
+    reached from it over REACH sides."""
     from scipy.ndimage import binary_dilation
 
     cell = np.zeros(per_area.shape, dtype=bool)

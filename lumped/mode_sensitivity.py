@@ -1,11 +1,11 @@
 """Derivatives of a natural frequency of a lattice by numbers of its scene and fields over its cells.
 
-Of K φ = ω² M φ with φᵀ M φ = 1, K the tangent at an equilibrium u,
+A mode φ has K φ = ω² M φ and φᵀ M φ = 1, with the tangent K at an equilibrium u, and
 
     dω² = φᵀ (∂K/∂θ − ω² ∂M/∂θ) φ + (∂/∂u φᵀ K φ) · du.
 
-As derivatives of an energy are symmetric, φᵀ ∂K/∂θ φ is that of −φ·∂R/∂θ along φ and ∂/∂u φᵀ K φ that of
-K φ: differences between both sides of u. du is the equilibrium's own (`lumped.gradient`); about the flat
+Derivatives of an energy are symmetric: φᵀ ∂K/∂θ φ and ∂/∂u φᵀ K φ are the derivatives of −φ·∂R/∂θ and K φ
+along φ, differences between both sides of u. du is the equilibrium's own (`lumped.gradient`); about the flat
 sheet there is none. Source: Fox and Kapoor, AIAA Journal 6 (1968) 2426, for a constant K.
 """
 

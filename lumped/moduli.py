@@ -1,7 +1,7 @@
 """Homogenisation: the plate moduli of a lattice, from the energy of its unit cell in closed form.
 
-A link of rest vector d (length L) and stiffness k stores ½ k (d·E d / L)². With the in-plane strain
-(ε_x, ε_y, γ_xy) at its mid-height, the stretch of its gap ε_z and the transverse shears γ_x, γ_y:
+A link of rest vector d (length L) and stiffness k stores ½ k (d·E d / L)². E has the in-plane strain
+(ε_x, ε_y, γ_xy) at the link's mid-height, the stretch of its gap ε_z and the transverse shears γ_x, γ_y:
 
     d·E d = dx² ε_x + dy² ε_y + dx dy γ_xy + dz² ε_z + dx dz γ_x + dy dz γ_y.
 
@@ -41,9 +41,9 @@ LEVEL = int(np.sum(SPAN[:, 2] == 0.0))  # those within a layer, which come first
 
 @dataclass(frozen=True)
 class Moduli:
-    """In-plane forms A [N/m], D [N·m] and B [N], `mixed`, (…, 3, 3) over (x, y, xy); shear stiffness S (…, 2)
-    [N/m], and what couples shear along x with that along y, (…); of cells the dots are (cells,) or (rows,
-    columns)."""
+    """Moduli of plates: the in-plane forms A [N/m], D [N·m] and B [N], `mixed`, (…, 3, 3) over (x, y, xy);
+    the shear stiffness S (…, 2) [N/m], and the coupling of shear along x with shear along y, (…). The dots
+    are (cells,) or (rows, columns) of cells."""
 
     membrane: np.ndarray
     bending: np.ndarray
@@ -69,7 +69,7 @@ class Moduli:
         return free(self.shear, self.coupling)
 
     def named(self, square: bool, oblique: bool = False, mixed: bool = False) -> dict[str, np.ndarray]:
-        """The moduli by name, (…) each; on square cells the x and y values are one. mixed: those of B too."""
+        """Return the moduli by name, (…) each, one for x and y on square cells. mixed: whether with B."""
         a, d, s = self.membrane, self.bending, self.shear
         forms = {"D": d, "A": a} | ({"B": self.mixed} if mixed else {})
         places = {"11": (0, 0), "12": (0, 1), "66": (2, 2)}
@@ -86,26 +86,26 @@ class Moduli:
 
 
 def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Shear stiffness of one gap along x and y, per unit stiffness of the cross links that run so, (…, 2),
-    and of the furthest diagonals, (…, 2) [1]; of cells of these sides (…, 2) [m]."""
+    """Return the shear stiffness of one gap along x and y, per unit stiffness of the cross links that run so,
+    (…, 2), and of the furthest diagonals, (…, 2) [1]; sides: of the cells, (…, 2) [m]."""
     squares, upright, area = sides**2, distance**2, sides.prod(axis=-1)[..., None]
     sheared = 2.0 * squares * upright / area
     return sheared / (squares + upright), 2.0 * sheared / (squares.sum(axis=-1)[..., None] + upright)
 
 
 def shear_gaps(layers: int) -> float:
-    """(Σ t_g)²/Σ t_g², t_g = g (L − g)/2: the sheet's shear stiffness in units of one gap's."""
+    """Return (Σ t_g)²/Σ t_g², t_g = g (L − g)/2: the sheet's shear stiffness in units of one gap's."""
     return 5 * layers * (layers**2 - 1) / (6 * (layers**2 + 1))
 
 
 def second_moment(layers: int) -> float:
-    """Σ z_k² of layers one apart, about their middle; of the gaps between L layers that of L − 1."""
+    """Return Σ z_k² about the middle of L layers at unit distance, or of L gaps between L + 1 layers."""
     return layers * (layers**2 - 1) / 12
 
 
 def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
-    """Moduli of interior patches of lattices with the springs of every cell, alike in all of one's cells;
-    sides: of the cells, (rows, columns, 2) [m], or of one where they are alike."""
+    """Return the moduli of interior patches of lattices, each with the springs of one cell throughout; sides:
+    of the cells, (rows, columns, 2) [m], or of one where they are alike."""
     shape = np.broadcast_shapes(sides.shape[:2], springs.shape)
     square = springs.layer_distance**2
     squares = np.empty((*shape, len(LINKS), 3))  # of the lengths that links span
@@ -146,21 +146,21 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
 
 
 def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
-    """Moduli of an interior patch of the lattice with these springs, alike in all cells."""
+    """Return the moduli of an interior patch of a lattice with equal springs in all cells."""
     read = replace(Springs.read(springs), layer_distance=spacing[2])
     found = of_cells(read, np.array([[spacing[:2]]]), layers)
     return Moduli(*(part[0, 0] for part in vars(found).values()))
 
 
 def _of_links(form: np.ndarray) -> np.ndarray:
-    """The form (…, 3, 3) over (x, y, xy) of links with this one over (x, y, z)."""
+    """Return the form (…, 3, 3) over (x, y, xy) of links from their form over (x, y, z)."""
     found = np.zeros_like(form)
     found[..., :2, :2], found[..., 2, 2] = form[..., :2, :2], form[..., 0, 1]
     return found
 
 
 def _in_plane(springs: Springs, cells: str) -> np.ndarray:
-    """The form (…, 3, 3) of area springs, strain springs and couplings."""
+    """Return the form (…, 3, 3) of area springs, strain springs and couplings."""
     strains = springs.strains(cells)
     form = _form(strains[..., :3], springs.along(cells, 0))
     for number, (row, column) in ((3, (0, 1)), (4, (0, 2)), (5, (1, 2))):
@@ -170,7 +170,7 @@ def _in_plane(springs: Springs, cells: str) -> np.ndarray:
 
 
 def _form(own: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """The form (…, 3, 3) of strain springs (…, 3) and area springs (…)."""
+    """Return the form (…, 3, 3) of strain springs (…, 3) and area springs (…)."""
     form = np.zeros((*own.shape, 3))
     form[..., :2, :2] = area[..., None, None]
     for number in range(3):
@@ -179,8 +179,8 @@ def _form(own: np.ndarray, area: np.ndarray) -> np.ndarray:
 
 
 def of_section(section: CellSection, spacing: Any) -> Moduli:
-    """Moduli of sections, with MacNeal's S* of the in-plane spacings (lx, ly) (…, 2) [m] as the shear
-    stiffness."""
+    """Return the moduli of sections, with MacNeal's S* of the in-plane spacings (lx, ly) (…, 2) [m] as the
+    shear stiffness."""
     bending = free_bending(section.membrane, section.mixed, section.bending)
     own = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
     residual = (np.square(spacing) / (12.0 * own))[..., None] * np.eye(2)

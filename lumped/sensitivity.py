@@ -19,9 +19,24 @@ from sheetbench.scenes import AnyScene, require_static, scene_of
 
 
 class Differentiable:
-    """The displacement of a scene's masses as a function of values by name (`lumped.gradient`): of its
-    parameters, of fields over its cells, of forces beside its own.
+    """Displacement of a scene's masses as a differentiable function of values by name.
 
+    Parameters
+    ----------
+    scene : Scene, str or Path
+        Scene with a static answer, the name of one in the catalogue, or the path of its file.
+    calibration : Calibration, optional
+        Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
+    calibrate : callable, optional
+        Function that calibrates a changed scene; by default the calibration's method without options.
+
+    Notes
+    -----
+    The values are parameters of the scene, fields over its cells, and forces on the masses in addition to the
+    scene's own, with the names of `lumped.gradient`.
+
+    Examples
+    --------
     >>> import lumped, numpy as np
     >>> sheet = lumped.Differentiable("one-edge-clamped")
     >>> young = np.full(sheet.base["cells.young"].shape, 5e7)
@@ -52,11 +67,11 @@ class Differentiable:
         return self._plain.plain
 
     def at(self, points: np.ndarray) -> Any:
-        """Return the map of displacements to those at plan points (p, 2), sparse (3 p, 3 n), both flat."""
+        """Return the sparse map (3 p, 3 n), both flat, of displacements to values at plan points (p, 2)."""
         return MidSurface(self._plain.problem.assembly.lattice, points).matrix(len(self._plain.u))
 
     def solve(self, values: Mapping[str, Any]) -> np.ndarray:
-        """Return the displacement (n, 3) [m] of the stable equilibrium with these values, sought from the
+        """Return the displacement (n, 3) [m] of the stable equilibrium with the given values, sought from the
         last solution first. Raises NoEquilibrium where there is none, BadInput for other names."""
         at, path = self.path(values, None if self._last is self._plain else self._last.u)
         require_stable("lumped", path.status, path.notes)
@@ -65,8 +80,8 @@ class Differentiable:
         return path.state.u
 
     def path(self, values: Mapping[str, Any], near: np.ndarray | None) -> tuple[Equilibrium, LatticePath]:
-        """Return the path to the equilibrium with these values, sought first from `near` (n, 3), and its
-        derivatives, which lack u."""
+        """Return an `Equilibrium` with the given values, its u not yet set, and the path to u, sought first
+        from `near` (n, 3)."""
         scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
@@ -90,8 +105,8 @@ class Differentiable:
         return self._solved().pullback(by_displacement)
 
     def vjp(self, values: Mapping[str, Any], by_displacement: np.ndarray) -> dict[str, np.ndarray]:
-        """Return the derivatives of J by each of these values, of its shape, by_displacement: ∂J/∂u (n, 3);
-        values that are not the last solve's are solved first."""
+        """Return the derivatives of J by every given value, in its shape; by_displacement: ∂J/∂u (n, 3).
+        Values that are not the last solve's are solved first."""
         last = self._values
         same = last.keys() == values.keys() and self._last is not self._plain
         if not (same and all(np.array_equal(value, last[name]) for name, value in values.items())):

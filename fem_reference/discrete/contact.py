@@ -9,9 +9,9 @@ p(δ) in sinking is its energy ψ per area, ½ k δ² at rest, and its force giv
 
 On a plane under a sheet that is flat when nothing acts on it nodes have areas ∫N dA, all positive on nine
 nodes, where they are Simpson's rule, and k = E/h. Else the place that touches may be anywhere in an element,
-and small: δ is biquadratic between 3 × 3 points of each of its parts, no longer than R/2, and integrals are
-those over {δ > 0} (`patch`), with k STIFFER times as much; at rest elements join without kinks
-(`tangent_planes`). In motion k is SOFTER, and ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
+and small: δ is biquadratic between 3 × 3 points of each of its parts, no longer than R/2, and integrals run
+over {δ > 0} (`patch`), with k STIFFER times as much; at rest elements join without kinks
+(`tangent_planes`). Motion has k = SOFTER E/h and ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
 """
 
 from __future__ import annotations
@@ -85,8 +85,8 @@ class Touching(SheetItem):
         return np.asarray(self.shares @ faces)
 
     def _slopes(self, vectors: np.ndarray, on: np.ndarray) -> np.ndarray:
-        """Return derivatives (faces, k, n, 3, 18, 3) of nodes of faces, and what turns them, by the vectors
-        (k, 18, 3) of elements `on`."""
+        """Return derivatives (faces, k, n, 3, 18, 3) of nodes of faces, and of their a (`tangent_planes`), by
+        the vectors (k, 18, 3) of elements `on`."""
         nodes, size = np.arange(9), self.shares.shape[1]
         out = np.zeros((len(self.levers), len(on), size, 3, 18, 3))
         out[:, :, nodes, :, nodes] = np.eye(3)
@@ -100,7 +100,7 @@ class Touching(SheetItem):
         return near(self.obstacle, self._points(shape.vectors), self.offset, shape.sheet.instant(shape.at))
 
     def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
-        """Return the places of points and the state of their groups."""
+        """Return the places of points beside the obstacle, and energies, loads and slopes of their groups."""
         found = self.near(shape)
         depth, stiffness = (
             found.sunk[..., self.groups],
@@ -126,7 +126,7 @@ class Touching(SheetItem):
         return out
 
     def _pulled(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return forces at points (faces, m, p, 3) [N], the share of dashpot and friction, and its
+        """Return forces at points (faces, m, p, 3) [N], their part by dashpot and friction, and its
         derivatives by the points' velocities (faces, m, p, 3, 3)."""
         found, (_, load, _) = self._pressed(shape)
         velocity = self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
@@ -138,7 +138,7 @@ class Touching(SheetItem):
         return self._onto(shape, self._pulled(shape)[0])
 
     def _onto(self, shape: SheetShape, pull: np.ndarray) -> np.ndarray:
-        """Return forces on the coordinates (N,) of those at points (faces, m, p, 3)."""
+        """Return forces on the coordinates (N,) from forces at points (faces, m, p, 3)."""
         on = np.flatnonzero(pull.any(axis=(0, 2, 3)))
         by = self._slopes(shape.vectors[on], on)
         pull = np.einsum("fmni,fmnijc->mjc", self.shares.T @ pull[:, on], by, optimize=True)
@@ -163,8 +163,8 @@ class Touching(SheetItem):
         return self._between(shape, on, out, (loads[..., None] * found.slope[:, on]).sum(axis=0))
 
     def rate(self, shape: SheetShape, low: Touching, high: Touching, over: float) -> np.ndarray:
-        """Return the derivative of the force (N,) by what differs between two, `over` which they differ:
-        their obstacle's place and size, the offset, the stiffness. The patch stays."""
+        """Return the derivative (N,) of the force by a parameter, between contacts `low` and `high` that
+        differ by `over` in it, by their obstacles' place and size, offset and stiffness. The patch stays."""
         found, (_, load, slope) = self._pressed(shape)
         stiffer = copy(self)
         stiffer.full = (high.full - low.full) / over
@@ -177,8 +177,8 @@ class Touching(SheetItem):
     def _between(
         self, shape: SheetShape, on: np.ndarray, by: np.ndarray, pull: np.ndarray | None = None
     ) -> Tangent | None:
-        """Return derivatives of elements' forces by their vectors from those (faces, k, 3 n, 3 n) of what
-        points are shares of; pull: at points (k, p, 3)."""
+        """Return derivatives of elements' forces by their vectors from derivatives `by` (faces, k, 3 n, 3 n)
+        at nodes of faces and their a; pull: at points (k, p, 3)."""
         vectors = shape.vectors[on]
         first = self._slopes(vectors, on).reshape(*by.shape[:3], 54)
         out = (first.swapaxes(-1, -2) @ by @ first).sum(axis=0).reshape(-1, 18, 3, 18, 3)

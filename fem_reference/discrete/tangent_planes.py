@@ -1,7 +1,7 @@
 """The mid-surface of nine-node elements without kinks between them: tangents across the nodes' directors.
 
-At a node i a biquadratic φ has the slopes φ,k along r and s, others than the neighbours' φ where a line of
-nodes bears a force. Less what of them is along the director,
+At a node i a biquadratic φ has the slopes φ,k along r and s, which differ from its neighbours' slopes where
+a line of nodes bears a force. Without the slopes' part along the director,
 
     P = φ + Σ_ik σ(r − r_i) L(s) a_ik …,   a_ik = −(φ,k·d_i) d_i/|d_i|²,
     σ(x) = x − 3/2 x|x| up to |x| = ½,  sgn(x) ½ (1 − |x|)² up to 1,

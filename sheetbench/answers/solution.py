@@ -93,8 +93,7 @@ class FieldMesh:
     """A mesh with fields, ready to be written as VTU.
 
     points: (n, 3) [m] undeformed; cells: meshio type → (m, k) connectivity; point_data: name → (n, …),
-    always with "displacement" (n, 3) [m]; cell_data: name → one array per cell block, in order.
-    """
+    always with "displacement" (n, 3) [m]; cell_data: name → one array per cell block, in order."""
 
     points: np.ndarray
     cells: list[tuple[str, np.ndarray]]
@@ -300,16 +299,15 @@ class Solution(Answer):
     ) -> dict[str, Any]:
         """Return the derivatives of a number J of this equilibrium, by one more solve: of a number of the
         scene as young, patch1.thickness or load1.force.z a number, of a field over the cells (elements) of
-        the model, as cells.young (elements.young), an array; what touches an obstacle goes on touching it.
+        the model, as cells.young (elements.young), an array; points that touch an obstacle go on touching it.
 
         of: a component at a probe, as "P4.uz"; an array (n, 3), J's derivatives by the displacements at the
-        probes in their order; or a smooth function of these, (n, 3) [m], that returns J, differentiated by
-        central differences. at: plan points (n, 2) [m] in place of the probes. by: names; all
-        that there are without it.
+        probes in their order; or a smooth function of the displacements, (n, 3) [m], that returns J,
+        differentiated by central differences. at: plan points (n, 2) [m] in place of the probes. by: names;
+        all that there are without it.
 
         Raises NoEquilibrium where this is no stable equilibrium under the whole load, BadInput for a model
-        without derivatives and an unknown name.
-        """
+        without derivatives and an unknown name."""
         if self.sensitivity is None:
             raise BadInput(f"gradient: {self.label} has no derivatives; lumped, plate and shell have")
         self.require_stable()

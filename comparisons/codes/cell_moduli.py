@@ -1,5 +1,5 @@
-"""What a cell is as a sheet: coefficients, moduli beside the sheet's, the error that stays;
-and the parameters of codes with such cells.
+"""Moduli of a cell beside a sheet's, the error that remains on the finest mesh, and parameters of codes for
+meshes of the cell.
 """
 
 from __future__ import annotations
@@ -86,8 +86,7 @@ class CellModuli(CellInScene):
     """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
-    nearest to the sheet's, and the error that they leave, where that is another.
-    """
+    nearest to the sheet's, and the error that they leave, where that is another."""
 
     moduli: Moduli
     nearest: tuple[dict[str, float], float] | None = None
@@ -181,15 +180,14 @@ def homogenise(
     hinge: str | None = None,
     coefficients: Mapping[str, float] | None = None,
 ) -> CellModuli:
-    """Return a cell's coefficients for a scene's sheet, and the moduli that they give: those nearest to its
-    moduli, and of hinges the one that is best in the scene.
+    """Return a cell's coefficients for a scene's sheet, and the moduli that they give: the nearest to the
+    sheet's, and of hinges the best in the scene.
 
-    cell: a name or a file, whose nodes are `spacing` [m] apart, an eighth of the shorter side unless given,
-    with the energy of a `hinge`; or a `Cell`. coefficients: taken in place of those found. The answer has no
-    error, and a note, for a scene whose sheet has no stable equilibrium. Raises BadInput for a coefficient
-    that the cell does not have, a scene without an answer at rest, and spacing and hinge of a cell that has
-    its own.
-    """
+    cell: a `Cell`, or a name or a file of a cell with nodes `spacing` [m] from each other, an eighth of the
+    shorter side by default, and with the energy of a `hinge`. coefficients: taken in place of the computed
+    ones. The answer has no error, and a note, for a scene whose sheet has no stable equilibrium. Raises
+    BadInput for a coefficient that the cell does not have, a scene without an answer at rest, and spacing and
+    hinge of a cell that has its own."""
     scene, given = scene_of(scene), dict(coefficients or {})
     require_plain(scene, "--cell")
     if isinstance(cell, str):

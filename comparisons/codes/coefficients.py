@@ -10,8 +10,8 @@ and by displacements that repeat from cell to cell, for which the energy is leas
 nor turn it through its thickness. The field in another cell differs by a rigid motion, so that all cells have
 one energy.
 
-Codes without such laws have sheets of springs of one stiffness: along the sides of triangles, or of
-tetrahedra in one layer, whose height is then free to be chosen. Squares are cut into five tetrahedra each,
+Codes without laws of membranes have sheets of springs of one stiffness: along the sides of triangles, or of
+tetrahedra in one layer, whose height is a second coefficient. Squares are cut into five tetrahedra each,
 neighbours mirrored, so that they share their faces' diagonals.
 """
 
@@ -68,8 +68,7 @@ class Moduli:
 def moduli_of(cell: Cell, coefficients: Mapping[str, float]) -> Moduli:
     """Moduli of a sheet of this cell.
 
-    coefficients: by the names of `cell.units()`, in those units. Raises KeyError where one is missing.
-    """
+    coefficients: by the names of `cell.units()`, in those units. Raises KeyError where one is missing."""
     count = 3 * len(cell.nodes)
     stiffness, coupled, imposed = np.zeros((count, count)), np.zeros((count, 8)), np.zeros((8, 8))
     for element in cell.elements():
@@ -121,8 +120,7 @@ def nearest(
 
     Triangles have the membrane's λh = E ν h/(1 − ν²) and μh = E h/2(1 + ν), bricks Lamé's constants. The
     others are found by least squares over A and D, each over its 11, in a norm that no turn of the axes
-    changes (Mandel's).
-    """
+    changes (Mandel's)."""
     nu = material.poisson
     stretching = material.young * thickness / (1.0 - nu**2)
     exact = {"lambda_h": nu * stretching, "mu_h": 0.5 * (1.0 - nu) * stretching}
@@ -149,12 +147,11 @@ def nearest(
 
 
 def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
-    """The error in a scene of a mesh of this cell, however fine: the one of a shell with the cell's moduli.
+    """Return the error in a scene of the finest mesh of a cell: the error of a shell with the cell's moduli.
 
-    elements: along the side of a square, as many in all on others. The shell takes large rotations, like
-    these meshes. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, or
-    one of these moduli, has no stable equilibrium in the scene.
-    """
+    elements: along the side of a square, as many in all on others. The shell takes large rotations, as the
+    meshes do. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, with
+    its own moduli or the cell's, has no stable equilibrium in the scene."""
     return limit_errors(scene, elements)(moduli)
 
 
@@ -182,7 +179,8 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
 
 def least_error(scene: Scene, moduli: Callable[[float], Moduli], low: float, high: float) -> float:
     """Return the number between low and high whose moduli leave the least error in the limit in this scene.
-    Raises NoEquilibrium where the sheet, or every one of these moduli, is unstable there."""
+    Raises NoEquilibrium where the sheet is unstable with its own moduli, or with the moduli of every number
+    tried."""
     error_of = limit_errors(scene, COARSE)
 
     def off(logarithm: float) -> float:
@@ -262,8 +260,7 @@ def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[st
     """k [N/m] and the layers' distance [m] of tetrahedra.
 
     k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or the best fit to
-    the scene. Raises NoEquilibrium where the scene's sheet has no stable one.
-    """
+    the scene. Raises NoEquilibrium where the scene's sheet has no stable one."""
     own = section_of(scene.material, scene.sheet.thickness)
 
     def at(height: float) -> tuple[float, Moduli]:

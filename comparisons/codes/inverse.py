@@ -79,7 +79,7 @@ class SheetOfCode(Answer):
 
     @property
     def impossible(self) -> str:
-        """The reason why no isotropic sheet has these numbers, "" where one has."""
+        """The reason why no isotropic sheet has the coefficients, "" where one has."""
         if self.poisson > MOST_POISSON:
             return f"ν = {self.poisson:.3g} is of no isotropic material, whose ν is below 0.5"
         if self.bending is None:
@@ -129,11 +129,9 @@ def sheet_of(
 ) -> SheetOfCode:
     """Return the sheet that a code's numbers describe.
 
-    given: parameters of the code by their names; cell: the mesh, by default the usual one of the code, with
-    vertices `spacing` [m] apart; density [kg/m³]: for codes without a parameter for it. Raises BadInput for
-    unknown names, numbers that contradict each other, and a mesh without a spacing on which the bending
-    depends.
-    """
+    given: parameters of the code by their names; cell: the mesh, by default the code's usual one; spacing
+    [m]: of its vertices; density [kg/m³]: for codes without a parameter for it. Raises BadInput for unknown
+    names, numbers that contradict each other, and a mesh without a spacing on which the bending depends."""
     require_choice("--from", code, CODES)
     row, asked = CODES[code], f"--from {code}:"
     known = ", ".join(key.name for key in row.keys)
@@ -177,8 +175,7 @@ def solved(code: Code, given: Mapping[str, float]) -> dict[str, float]:
 
     Unknowns are logarithms, and artanh of λh/(λh + 2 μh); residuals are logarithms of parameters over given
     values where both are positive. If ρ h alone is known, it is "areal" [kg/m²]. Raises BadInput for numbers
-    that no coefficients have.
-    """
+    that no coefficients have."""
     limp = {name for name in given if given[name] == 0.0 and name in BENDS}
     keys = [key for key in code.keys if key.name in given.keys() - limp]
 

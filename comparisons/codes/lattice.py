@@ -168,13 +168,12 @@ CODES = (SOFA, *READERS, *IN_MOTION)
 def lattice_files(
     scene: Scene, calibration: Calibration, code: str | None = None, precision: str = "double"
 ) -> tuple[dict[str, Write], list[str]]:
-    """Return the files of a scene's lattice with these springs, and sentences about parts of the scene that
-    are left out.
+    """Return the files of a scene's lattice with calibrated springs, and sentences about parts of the scene
+    that are left out.
 
-    code: of `CODES`, whose file comes beside them, or that has files of its own; precision: of programs in
-    motion. Raises BadInput for lattices that files cannot hold (`lumped.describe`), and for features that the
-    code lacks.
-    """
+    code: of `CODES`, with a file of its own beside the lattice's, or with other files in their place;
+    precision: of programs in motion. Raises BadInput for lattices that files cannot hold (`lumped.describe`),
+    and for features that the code lacks."""
     import lumped
 
     if code in IN_MOTION:
@@ -208,11 +207,10 @@ def export(
     command: Sequence[str] = (),
     overwrite: bool = False,
 ) -> str:
-    """Write the lattice of a scene with these springs; a sentence with the folder and its files.
+    """Write the lattice of a scene with calibrated springs; return a sentence with the folder and its files.
 
     command: for the manifest. Raises BadInput for a folder that cannot be had or holds another scene's files,
-    unless `overwrite`, and for lattices that files cannot hold.
-    """
+    unless `overwrite`, and for lattices that files cannot hold."""
     files, missing = lattice_files(scene, calibration)
     target = Folder(
         folder,

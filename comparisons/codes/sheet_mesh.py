@@ -75,9 +75,8 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     """Return the mesh of a scene's sheet, `squares` along its shorter side.
 
     pattern: ONE or ALTERNATE; beyond_share: how far beyond an edge its second row is, over a square's side.
-    Raises BadInput for features that these codes lack: supports but points at vertices and clamped and hinged
-    edges that stay, loads but weight and forces at points and along edges.
-    """
+    Raises BadInput for features that codes of meshes lack: supports but points at vertices and clamped and
+    hinged edges that stay, loads but weight and forces at points and along edges."""
     if why := refusal(scene):
         raise BadInput(f"{scene.name}: {why}")
     counts = near_square(scene.sheet, squares)
@@ -161,10 +160,10 @@ def _held_in(
 
 
 def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> tuple[SheetMesh, np.ndarray]:
-    """Two layers of a flat mesh's vertices, this far apart [m], and the tetrahedra between (m, 4).
+    """Return two layers of a flat mesh's vertices at a distance of `height` [m], and the tetrahedra between
+    (m, 4).
 
-    Lower and upper vertices take turns; triangles are the layers' own, probes the mean of both.
-    """
+    Lower and upper vertices take turns; triangles are the layers' own, probes the mean of both."""
     counts = near_square(scene.sheet, squares)
     spacing = np.array(scene.sheet.lengths) / counts
     places = np.rint(flat.vertices[:, :2] / spacing).astype(int)

@@ -25,11 +25,13 @@ SHOWN = 20  # residuals on the terminal; all of them are in the files
 
 @dataclass(frozen=True, repr=False)
 class Identification(Answer):
-    """unknowns: name → Estimate; residuals [m], model − measured: (n, 3) of displacements, nan where nothing
-    was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
-    the largest measurement; converged: whether the search ended at a minimum; runs: whether neighbouring
-    residuals have one sign; explained: whether what is left is small, or noise; starts: of the search; grids:
-    the lattices that were fitted; outliers: rows that do not fit."""
+    """Values of unknowns of a scene with intervals, and the fit's residuals.
+
+    unknowns: name → Estimate; residuals [m], model − measured: (n, 3) of displacements, nan where nothing was
+    measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over the
+    largest measurement; converged: whether the search ended at a minimum; runs: the runs test of neighbouring
+    residuals; explained: whether the residuals are small, or noise; starts: number of starts of the search;
+    grids: the lattices that were fitted; outliers: rows that do not fit."""
 
     file_name = "identification"
     scene: Scene
@@ -51,8 +53,8 @@ class Identification(Answer):
 
     @property
     def contains(self) -> str:
-        """What the intervals contain: the measurements' noise, and the error of the grid or mesh; "" where
-        there are none."""
+        """Sources of error in the intervals, the measurements' noise and the grid or mesh; "" without
+        intervals."""
         if all(u.interval is None for u in self.unknowns.values()):
             return ""
         if all(u.interval == u.noise_interval for u in self.unknowns.values()):
@@ -72,13 +74,13 @@ class Identification(Answer):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """Return the unknowns, and what does not fit, by point."""
+        """Return a table of the unknowns and one of the residuals of all points."""
         return self._unknowns(), self._residuals(
             np.arange(len(self.residuals)), "Residuals: model − measurement"
         )
 
     def printed(self) -> tuple[Table, ...]:
-        """Return the unknowns, and the points that fit least, at most SHOWN of them, in the order of the
+        """Return the tables of unknowns and of residuals, the SHOWN largest at most, in the order of the
         file."""
         if len(self.residuals) <= SHOWN:
             return self.tables()
@@ -87,7 +89,7 @@ class Identification(Answer):
         return self._unknowns(), self._residuals(np.sort(np.argsort(size)[-SHOWN:]), caption)
 
     def _unknowns(self) -> Table:
-        """Return a row per unknown in its unit; nothing of what the data do not determine."""
+        """Return a row per unknown in its unit, empty for an unknown that the data do not determine."""
         rows = [
             (
                 name,
@@ -101,8 +103,7 @@ class Identification(Answer):
         return Table.listed(caption, UNKNOWNS, rows, "unknowns")
 
     def _residuals(self, points: np.ndarray, caption: str) -> Table:
-        """Return measured points (and times), and what the model is off there: by component, or along the
-        normal."""
+        """Return a row per measured point (and time): its residual by component, or along the normal."""
         flat = isinstance(self.measured, Displacements)
         names = [f"off in u{axis}" for axis in "xyz"] if flat else ["distance"]
         columns, at = [MILLIMETRES("z.2f", axis) for axis in "xyz"], self.measured.points
@@ -125,7 +126,8 @@ class Identification(Answer):
         return *choice_notes(self.settings), self._explanation()
 
     def _explanation(self) -> str:
-        """Return what was fitted with what, how well, and what the interval assumes."""
+        """Return a sentence with the model, the size of the residuals and the assumptions of the
+        intervals."""
         size = "×".join(map(str, self.settings.get("grid") or self.settings["elements"]))
         tried = " → ".join("×".join(map(str, grid)) for grid in self.grids)
         cells = f" (cells chosen by the fit: {tried})" if len(self.grids) > 1 else ""
@@ -163,7 +165,7 @@ class Identification(Answer):
 
 
 def _in_words(found: Estimate) -> str:
-    """Return a value with its interval."""
+    """Return an unknown's value with its interval in words."""
     value, *ends = (quantity(one, found.unit, ".4g") for one in (found.value, *(found.interval or ())))
     if not found.determined:
         return "not determined"

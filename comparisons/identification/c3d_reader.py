@@ -15,7 +15,7 @@ REFUSED = 2  # exit status; what is wrong is the last line of standard error
 
 
 def read(path: str) -> dict[str, Any]:
-    """Return what the file has."""
+    """Return labels, positions, unit and rate of the markers of a C3D file."""
     import ezc3d
 
     content = ezc3d.c3d(path)

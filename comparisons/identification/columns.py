@@ -1,11 +1,11 @@
 """Columns of numbers from a CSV file as spreadsheets, cameras, testing machines and numpy write them.
 
-The first line with the names of two columns that are looked for, in any order and case, is the header: what a
-machine writes above it is passed over. A name may have several words, and a unit may follow it in brackets,
-as in "uz [mm]", or stand below it in a row of units: numbers are converted to SI units, which they are in
-where no unit is given. Lines that begin with # are comments. Cells are separated by commas, semicolons or
-tabs, whichever the header has; where commas do not separate they may be decimal commas, as long as no number
-has a point. An empty cell, or NaN, is a number that was not measured.
+The header is the first line with the names of two of the requested columns, in any order and case; lines
+above it are skipped. A name may have several words, and a unit may follow it in brackets, as in "uz [mm]", or
+stand below it in a row of units; numbers without a unit are in SI units, others are converted to them. Lines
+that begin with # are comments. Cells are separated by commas, semicolons or tabs, whichever the header has;
+where commas do not separate they may be decimal commas, as long as no number has a point. An empty cell, or
+NaN, is a number that was not measured.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ _SHOWN = 40  # characters of a cell that a refusal repeats
 
 @dataclass(frozen=True)
 class Row:
-    """A line of a file: `where` names it, `cells` holds its text by column; scales: name of a column → SI
-    units per unit of its numbers."""
+    """A line of a file: `where` is its name in a message, `cells` its text by column, `scales` the SI units
+    per unit of a column's numbers."""
 
     where: str
     cells: dict[str, str]
@@ -51,8 +51,8 @@ class Row:
         return value
 
     def measured(self, name: str) -> float:
-        """Return the number in a column, nan where it was not measured. Raises BadInput for what is no
-        number."""
+        """Return the number in a column, nan where it was not measured. Raises BadInput for any other
+        text."""
         text = self.cells[name]
         if text.lower() in ("", "nan"):
             return nan
@@ -68,7 +68,7 @@ class Row:
         return value
 
     def refused(self, name: str, why: str) -> BadInput:
-        """Return the refusal of a cell."""
+        """Return the error for a cell."""
         text = self.cells[name]
         shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
         return BadInput(f"{self.where}: {name} = '{shown}': {why}")
@@ -87,10 +87,9 @@ class Columns:
 
 
 def read_columns(path: Path, units: Mapping[str, str] = MOTION) -> Columns:
-    """Return the columns of a file; units: the names of those that are looked for, and their SI units.
+    """Return the columns of a file; units: requested columns by name, with their SI units.
 
-    Raises BadInput naming the file, the line and what is wrong there.
-    """
+    Raises BadInput naming the file, the line and the fault."""
     try:
         lines = read_text(path, LARGEST_FILE).splitlines()
     except OSError as error:
@@ -142,8 +141,8 @@ def _headed(cell: str) -> tuple[str, str]:
 
 
 def _with_units(header: list[str], row: list[str], units: Mapping[str, str]) -> list[str] | None:
-    """Return the header with the units of the row below it, None where that is no row of units: one in
-    brackets, or one that its column can have, for every column that is looked for and has something there."""
+    """Return the header with the units of the row below it, None if that is no row of units: a unit in
+    brackets, or a unit of the column's quantity, in every nonempty cell of a requested column."""
     found, seen = list(header), False
     for at, (title, cell) in enumerate(zip(header, map(str.strip, row), strict=False)):
         name, own = _headed(title)
@@ -157,7 +156,7 @@ def _with_units(header: list[str], row: list[str], units: Mapping[str, str]) -> 
 
 
 def _is_unit(text: str, of: str) -> bool:
-    """Return whether a text is a unit of the same quantity as an SI unit; - is that of a pure number."""
+    """Return whether a text is a unit of an SI unit's quantity; "-" is the unit of pure numbers."""
     if text == "-":
         return not of
     try:

@@ -1,7 +1,8 @@
 """A field over a lattice's cells from displacements measured at rest: E, thickness or density of every cell.
 
-With p the logarithms of the cells' values over the scene's and J the slopes of the m residuals r, in standard
-deviations of the measurements, by p (one adjoint solution a number, `lumped.gradient`), each step minimises
+Unknowns p are the logarithms of the cells' values over the scene's, J the slopes of the m residuals r, in
+standard deviations of the measurements, by p (one adjoint solution a number, `lumped.gradient`). A step
+minimises
 
     |r + J δp|² + α |L p|²,     |L p|² ≈ ∫ |∇p|² dA,
 
@@ -48,8 +49,8 @@ SUMMARY += tuple(NUMBER(".4g", name) for name in ("least", "median", "most"))
 class FieldIdentification(Answer):
     """Values of a parameter in cells (rows, columns), nan where there is no cell. deviation: standard
     deviation of the values from noise; resolved: side [m] of the square that each value is the mean of;
-    centres: (rows, columns, 2) [m]; chi: χ²/m of m numbers; told: number of values that the data determine;
-    start: the scene's value."""
+    centres: (rows, columns, 2) [m]; chi: χ²/m of m numbers; determined: number of values that the data
+    determine; start: the scene's value."""
 
     file_name = "identification"
     scene: Scene
@@ -71,7 +72,7 @@ class FieldIdentification(Answer):
         return vars(self) | {"scene": self.scene.name}
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row a cell, after one of all of them."""
+        """Return a row of statistics over the cells, then a row per cell."""
         parts, there = (self.centres, self.values, self.deviation, self.resolved), np.isfinite(self.values)
         each = zip(*(part[there].tolist() for part in parts), strict=True)
         rows = [(*at, unit(self.unit), *numbers) for at, *numbers in each]
@@ -170,7 +171,7 @@ def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> F
 
 
 def _roughness(there: np.ndarray, widths_x: np.ndarray, widths_y: np.ndarray) -> np.ndarray:
-    """Return LᵀL over the present cells."""
+    """Return LᵀL over the present cells, of differences between neighbouring cells."""
     units, found = np.zeros((*there.shape, int(there.sum()))), 0.0
     units[there] = np.eye(units.shape[2])
     apart_x, apart_y = (0.5 * (widths[1:] + widths[:-1]) for widths in (widths_x, widths_y))
@@ -183,7 +184,8 @@ def _roughness(there: np.ndarray, widths_x: np.ndarray, widths_y: np.ndarray) ->
 
 
 def _smoothed(slopes: np.ndarray, wanted: np.ndarray, rough: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return p that leaves as much of J p = b as noise does, or as near to that as any, and its α."""
+    """Return p that leaves as much of J p = b as noise does, or as near to it as SMOOTHING allows, and its
+    α."""
     square, pulled = slopes.T @ slopes, slopes.T @ wanted
     size = np.trace(square) / np.trace(rough)
 
@@ -201,7 +203,7 @@ def _smoothed(slopes: np.ndarray, wanted: np.ndarray, rough: np.ndarray) -> tupl
 
 
 def compose(found: FieldIdentification, style: FigureStyle = PLAIN) -> Figure:
-    """The field at the left, over how wide a square each value is a mean at the right."""
+    """Draw the field at the left, and at the right the side of the square that each value is the mean of."""
     rows, columns = style.panels(2)
     figure = Figure(figsize=(style.width, 3.0 * rows), layout="constrained")
     sides = [1e3 * side for side in found.scene.sheet.lengths]

@@ -1,5 +1,5 @@
-"""The pictures of an identification: the fit, and what is left of it where (or when) it was measured; of a
-tensile test the measured curves and those of every law, and the misfit of each.
+"""Figures of identifications: the fit and its residuals over the plan or over time; of a tensile test the
+curves, measured and of every law, and the misfits.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ SHADES = "magma_r"
 
 
 def compose(found: Identification, style: FigureStyle = PLAIN) -> Figure:
-    """Model over measurement at the left (of a point cloud, how the distances are spread), residuals at the
-    right: over the plan, or of a motion over time. Lengths in millimetres."""
+    """Draw model over measurement at the left (of a point cloud the distribution of distances), residuals at
+    the right: over the plan, or of a motion over time. Lengths in millimetres."""
     rows, columns = style.panels(2)
     figure = Figure(figsize=(style.width, rows * HEIGHT), layout="constrained")
     left, right = figure.subplots(rows, columns)
@@ -79,7 +79,7 @@ COLORS = ("#4c72b0", "#dd8452", "#55a868", "#c44e52")
 
 
 def tensile(found: TensileFit, style: FigureStyle = PLAIN) -> Figure:
-    """Stress over stretch at the left, misfit over stretch at the right."""
+    """Draw stress over stretch at the left, misfit over stretch at the right."""
     rows, columns = style.panels(2)
     figure = Figure(figsize=(style.width, rows * HEIGHT), layout="constrained")
     left, right = figure.subplots(rows, columns)

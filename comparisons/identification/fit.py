@@ -1,17 +1,17 @@
-"""Model − measurement, and the search for the unknowns with which a model comes nearest to what was measured.
+"""Residuals of a model against measurements, and the search for the unknowns that minimise them.
 
 Residuals are shares of the largest measurement: u_model − u_measured at every measured component, or the
 distances of a cloud's points from the model's surface, along its normals
 (`comparisons.identification.surface`), weighted by the inverse of standard deviations that are given. The
 search is least squares in the unknowns' x by a trust region (SciPy's `least_squares`), with a pull of PULL
-towards the scene's own values, x = 0, that holds what the data do not see at all. Where the model has no
-answer the residuals are REFUSED, and the step is shortened.
+towards the scene's own values, x = 0, which fixes combinations of x without influence on the data. Residuals
+are REFUSED at an x without an equilibrium, which shortens the step.
 
-A motion that is out of step by half a period has a minimum of its own. So the first part of the record is
-fitted first, in which no phase has gone astray, and what is found there starts the fit of twice as much of
-it. Where the fit from the scene's own values leaves more than noise, it is made from STARTS others too,
-spread over the unknowns by Halton's sequence, and the best is taken. A start that leads to where another did
-in the first part of the record is not followed.
+A motion that is out of step by half a period has a minimum of its own. So the first part of the record, short
+enough for all phases to be right, is fitted first, and its x starts the fit of twice as much of the record.
+If the fit from the scene's own values leaves more than noise, STARTS further starts are tried, spread over
+the unknowns by Halton's sequence, and the best fit is kept. A start that reaches the x of an earlier start in
+the first part of the record is dropped.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ EVALUATIONS = 60
 
 @dataclass(frozen=True)
 class Nearest:
-    """Where a search ended: x (n,); weighted residuals (m,) there, in units of the largest measurement, and
-    their slopes (m, n) by x; against_bounds: (n,), -1 or 1 where an unknown ended at its lower or upper
-    bound; converged: whether at a minimum."""
+    """End of a search: x (n,); weighted residuals (m,) there, in units of the largest measurement, and their
+    slopes (m, n) by x; against_bounds: (n,), -1 or 1 for an unknown at its lower or upper bound; converged:
+    whether the search ended at a minimum."""
 
     x: np.ndarray
     residuals: np.ndarray
@@ -68,8 +68,8 @@ class Nearest:
 
 @dataclass(frozen=True)
 class Fit:
-    """What is fitted: unknowns of a model to measurements; offset [m]: from the mid-surface, at which a cloud
-    was taken."""
+    """Unknowns of a model, and the measurements to fit; offset [m]: distance of a cloud from the
+    mid-surface."""
 
     measured: Measured
     unknowns: tuple[Unknown, ...]
@@ -77,7 +77,7 @@ class Fit:
     offset: float = 0.0
 
     def residuals(self, predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
-        """Weighted residuals (m,) and their slopes (m, n) by the unknowns' x."""
+        """Return weighted residuals (m,) and their slopes (m, n) by the unknowns' x."""
         measured, scale, axes = self.measured, self.measured.scale, self.model.axes
         if isinstance(measured, Displacements):
             given = measured.measured
@@ -95,7 +95,7 @@ class Fit:
 
     @property
     def weights(self) -> np.ndarray:
-        """Of the residuals (m,)."""
+        """Weights of the residuals (m,)."""
         of_rows = weights(self.measured)
         if isinstance(self.measured, Surface):
             return of_rows
@@ -103,22 +103,22 @@ class Fit:
 
     @property
     def deviation(self) -> float:
-        """The standard deviation of weighted residuals that the measurements come with, 0 where it is not
-        known."""
+        """Standard deviation of weighted residuals from the measurements' deviation, 0 if unknown."""
         return typical_deviation(self.measured) / self.measured.scale
 
     def predict(self, x: np.ndarray) -> Prediction:
-        """Return what the model has where it was measured. Raises NotReached where it has no answer."""
+        """Return the model's displacements at measured points (and times). Raises NotReached without an
+        equilibrium."""
         measured, axes = self.measured, self.model.axes
         points = surface.plan_points(axes) if isinstance(measured, Surface) else measured.points
         return self.model.predict(self.unknowns, x, points, measured.time)
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residuals and slopes at x. Raises NotReached where the model has no answer."""
+        """Return residuals and slopes at x. Raises NotReached without an equilibrium."""
         return self.residuals(self.predict(x))
 
     def per_point(self, residuals: np.ndarray) -> np.ndarray:
-        """Residuals [m] in the shape of the measurements, nan where nothing was measured."""
+        """Return residuals [m] in the shape of the measurements, nan where nothing was measured."""
         metres = residuals * self.measured.scale / self.weights
         if isinstance(self.measured, Surface):
             return metres
@@ -127,8 +127,8 @@ class Fit:
         return out
 
     def require_same_way(self, predicted: Prediction) -> None:
-        """Raise BadInput where the measured deflection points the other way than the predicted one, which
-        other values of the sheet cannot turn over."""
+        """Raise BadInput where the measured deflection points the other way than the predicted one and no
+        unknown can reverse it."""
         measured, axes = self.measured, self.model.axes
         if any(unknown.turns for unknown in self.unknowns):
             return
@@ -154,10 +154,10 @@ class Fit:
     ) -> Nearest:
         """Return the unknowns' x with which the model comes nearest to the measurements.
 
-        start: x to begin at; first: called with this fit and what is predicted there, to refuse it;
-        smallest: change of x, or of the sum of squares, that ends the search, as do so many evaluations;
-        pull: towards the scene's own values. Raises NotReached where the model has no answer at the start.
-        """
+        start: x to begin at; first: a check, called with this fit and the prediction at the start, that may
+        raise; smallest: change of x, or of the sum of squares, that ends the search; evaluations: their
+        largest number; pull: towards the scene's own values. Raises NotReached if the model has no
+        equilibrium at the start."""
         kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
 
         def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -198,7 +198,8 @@ class Fit:
 
 
 def _correlation(model: np.ndarray, measured: np.ndarray, scale: float) -> float:
-    """Σ model · measured over both norms, of what was measured; 0 where that is small or nothing moves."""
+    """Return Σ model · measured over both norms, of measured numbers; 0 where they are small or nothing
+    moves."""
     given = np.isfinite(measured)
     model, measured = model[given], measured[given]
     norms = float(np.linalg.norm(model) * np.linalg.norm(measured))
@@ -220,12 +221,12 @@ Refusal = Callable[[Fit, Prediction], None]
 def nearest(
     fit: Fit, enough: Callable[[Nearest], bool], first: Refusal = Fit.require_same_way
 ) -> tuple[Nearest, int]:
-    """Return the best of the searches, and from how many starts it was made; enough: whether one needs no
-    other.
+    """Return the best of the searches, and the number of starts made; enough: whether a result needs no
+    further start.
 
-    first: called with the fit, or that of the first part, and what is predicted of the scene's own values,
-    to refuse it. Raises NotReached where the model has no answer with them, of a motion with no start.
-    """
+    first: a check, called with the fit of the first start, or of the first part of a motion, and the
+    prediction there, that may raise. Raises NotReached if the model has no equilibrium with the scene's own
+    values, of a motion with no start."""
     reached: list[np.ndarray] = []
     low, high = np.array([u.bounds() for u in fit.unknowns]).T
     spread = np.minimum(SPREAD, 0.5 * (high - low))
@@ -251,8 +252,8 @@ def nearest(
 
 
 def _from(fit: Fit, start: np.ndarray, reached: list[np.ndarray], first: Refusal | None) -> Nearest | None:
-    """Return the search from a start, over growing parts of a motion; None where it joins one that was made.
-    reached: x after the first part of the searches so far, to which this one's is added."""
+    """Return the search from a start, over growing parts of a motion, or None if it reaches an earlier
+    search's x. reached: x after the first part of each search so far; this search adds its own."""
     parts = _parts(fit)
     for at, part in enumerate((*parts, fit)):
         rough = ROUGH if part is not fit else {"smallest": ENOUGH} if parts else {}
@@ -266,7 +267,7 @@ def _from(fit: Fit, start: np.ndarray, reached: list[np.ndarray], first: Refusal
 
 
 def _parts(fit: Fit) -> list[Fit]:
-    """Return the fits of parts of a motion that are made before the whole."""
+    """Return the fits of parts of a motion that precede the fit of the whole."""
     measured = fit.measured
     if not isinstance(measured, Displacements) or measured.time is None:
         return []

@@ -1,32 +1,32 @@
-"""The inverse question: parameters of a scene from what was measured of its sheet.
+"""Identification: parameters of a scene from measurements of its sheet.
 
 Least squares in the unknowns' x (`comparisons.identification.unknowns`),
 
     min Σ r²,   r = u_model − u_measured at every measured component, or
                 r = n · (φ_model − P) + offset, the distance along the surface's normal, at every cloud point,
 
-by a trust region (SciPy's `least_squares`), from the values that the scene gives. Every measured component
-weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
-with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. Where standard deviations are given
-residuals are weighted by their inverse, and x ± 1.96 max(s, σ) √C_ii is one, of as many unknowns as numbers
-too. It does not know of the model's own
-errors, but for those of its grid or mesh, which are added to it.
+by a trust region (SciPy's `least_squares`), from the values that the scene gives. The noise is taken to be
+independent and equally large in all measured components, which have equal weights. Then x ± t s √C_ii, with
+s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. If standard deviations σ are given,
+residuals are weighted by their inverse, and the interval is x ± 1.96 max(s, σ) √C_ii, which exists for as
+many unknowns as numbers too. The interval contains the error of the grid or mesh, and no other error of the
+model.
 
-The search is made from several starts, and over growing parts of a motion (`fit`); what is left is tested
+The search is made from several starts, and over growing parts of a motion (`fit`); its residuals are tested
 for being noise and for rows that do not fit (`residuals`).
 
-A pull of PULL towards the scene's own values holds what the data do not see at all (only E/ρ shows in a sheet
-under its own weight), or rounding would walk off with it; what they see it moves by PULL², 1e-12.
-Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
+A pull of PULL towards the scene's own values fixes combinations of unknowns without influence on the data (E
+and ρ in a sheet under its own weight, where only E/ρ shows), which rounding would change at random; it moves
+others by PULL², 1e-12. Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 
 A lattice's cells must be so fine that the grid moves the unknowns less than the noise does. A Gauss–Newton
-step on cells half as large says by how much those would move an unknown. The grid's error is of second order
-inside the sheet and nearer to first at held edges (E of the shell's own data: 0.94 % low on 9 masses a side,
-0.44 % on 17), so that GRID_ERROR times the step bounds what the grid does to the value; half-widths of
-intervals contain it. Where cells are not given, the fit is made again on cells half as large until the step,
-or half of the last one, is below SHARE of the noise's half-width, or below NEGLIGIBLE. The budget is a size,
-not a time, so that the answer does not depend on the machine: FITTED and CHECKED unknowns take a second or
-two a solve. Where it ends the search, the next step is taken to be half the last.
+step on cells half as large estimates the grid's effect. The grid's error is of second order inside the sheet
+and nearer to first at held edges (E of the shell's own data: 0.94 % low on 9 masses a side, 0.44 % on 17), so
+that GRID_ERROR times the step is a bound of the grid's error; half-widths of intervals contain it. If cells
+are not given, the fit is made again on cells half as large until the step, or half of the last one, is below
+SHARE of the noise's half-width, or below NEGLIGIBLE. The budget is a size, not a time, so that the answer
+does not depend on the machine: FITTED and CHECKED unknowns take a second or two a solve. When it ends the
+search, the next step is taken to be half the last.
 """
 
 from __future__ import annotations
@@ -70,12 +70,11 @@ FITTED, CHECKED = 20_000, 30_000  # unknowns of a lattice that is fitted, and of
 def refined(
     scene: Scene, lattice: Lattice, fit: Fit, best: Nearest, free: bool
 ) -> tuple[Fit, Nearest, np.ndarray, list[tuple[int, ...]]]:
-    """Return the fit on cells that are small enough where the grid is free, else on those given, the best of
-    its searches, by how much x changes on cells half as large, nan where that is not known, and all grids
-    that were fitted, (nx, ny, layers) each.
+    """Return the fit on the final grid, its best search, the change of x on cells half as large, nan if
+    unknown, and all grids that were fitted, (nx, ny, layers) each. Cells are halved until they are small
+    enough if the grid is free.
 
-    lattice: as it was requested; fit, best: on the first grid.
-    """
+    lattice: as it was requested; fit, best: on the first grid."""
     names = [u.name for u in fit.unknowns]
     grids = [tuple(fit.model.settings["grid"])]
     step = np.full(len(names), np.nan)
@@ -109,8 +108,9 @@ def refined(
 
 
 def mesh_error(scene: Scene, reference: Elements, fit: Fit, best: Nearest) -> np.ndarray:
-    """Return what a reference's elements do to x at most, by a step on elements twice as large: the error is
-    taken to fall in first order, the least that it does; nan where these have no answer."""
+    """Return a bound of the error of x by a reference's mesh, from a step on elements twice as large. The
+    error is taken to fall in first order, the slowest possible. Returns nan without an equilibrium on larger
+    elements."""
     elements = reference.counts(scene)[:2]
     coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
     longer = (prod(elements) / prod(coarse)) ** 0.5
@@ -123,7 +123,7 @@ def mesh_error(scene: Scene, reference: Elements, fit: Fit, best: Nearest) -> np
 
 
 def _step(fit: Fit, x: np.ndarray) -> np.ndarray:
-    """Return the Gauss–Newton step of x, of what the data see; nan where the model has no answer."""
+    """Return the Gauss–Newton step of x in determined directions; nan if the model has no equilibrium."""
     try:
         residuals, slopes = fit.at(x)
     except NotReached:
@@ -149,18 +149,17 @@ def identify(
     uncertainty: float | None = None,
     refine: bool = True,
 ) -> Identification | FieldIdentification:
-    """Return the unknowns of these names, from measurements or a file of them (`measurements.read`); of
-    young=field, thickness=field or density=field that of every cell (`field`).
+    """Return values and intervals of unknowns of a scene, from measurements or a file of them
+    (`measurements.read`); of young=field, thickness=field or density=field the values of all cells (`field`).
 
     Unless the lattice has a grid, cells become smaller until the grid moves the unknowns less than the noise
     does; its grading may be "auto", by the scene's own values. elements: of a reference; law: its law of
-    strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's
-    normal, 0 on the mid-surface; uncertainty [m]: standard deviation of every measured number. refine:
-    whether to look at other cells or elements too (not for motions).
+    strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: distance of a cloud from the mid-surface along the
+    normal; uncertainty [m]: standard deviation of every measured number. refine: whether to estimate the
+    error of the grid or mesh on other cells or elements (not for motions).
 
     Raises BadInput for names, models and data that contradict each other, and NotReached where the model has
-    no stable answer with the scene's own values.
-    """
+    no stable answer with the scene's own values."""
     scene = scene_of(scene)
     require_static(scene)
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
@@ -189,7 +188,7 @@ def identify(
 
 
 def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> Identification:
-    """Return the answer; spec: of the model, as it was requested."""
+    """Return the identification of a fit; spec: the model as it was requested."""
     unknowns, measured = fit.unknowns, fit.measured
     refine = refine and measured.time is None
     odd: tuple[Outlier, ...] = ()
@@ -245,8 +244,8 @@ def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> I
 
 
 def _estimate(u: Unknown, x: float, noise: float, bound: float, step: float) -> Estimate:
-    """Return an unknown's value at x; noise: half-width of its interval; bound: what the grid or mesh does to
-    x at most, step: of x on cells half as large; nan where they are not known."""
+    """Return an unknown's value at x; noise: half-width of its interval; bound: of the error of x by the grid
+    or mesh; step: of x on cells half as large; nan where they are not known."""
     known = not np.isnan(noise)
     return Estimate(
         value=u.value(x),
@@ -271,7 +270,7 @@ def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> No
 
 
 def _check(scene: Scene, fit: Fit) -> None:
-    """Raise BadInput for measurements that say nothing of the unknowns, or are of no place on the sheet."""
+    """Raise BadInput for unknowns that the measurements cannot determine, and an offset of displacements."""
     names, measured = [u.name for u in fit.unknowns], fit.measured
     repeated = {name for name in names if names.count(name) > 1}
     if not names or repeated:
@@ -294,8 +293,8 @@ def _check(scene: Scene, fit: Fit) -> None:
 
 
 def _with_deviation(measured: Measured, uncertainty: float | None) -> Measured:
-    """Return the measurements with one standard deviation [m] of every number, where it is given. Raises
-    BadInput where it is not above 0, and where the file has a column of them."""
+    """Return the measurements with one standard deviation [m] of every number, if it is given. Raises
+    BadInput unless it is above 0, and if the file has a column of standard deviations."""
     if uncertainty is None:
         return measured
     if not uncertainty > 0.0:
@@ -306,8 +305,9 @@ def _with_deviation(measured: Measured, uncertainty: float | None) -> Measured:
 
 
 def _on_sheet(measured: Measured, scene: Scene) -> Measured:
-    """Return the measurements with points that lie off the sheet by rounding alone, within ON_EDGE of its
-    longer side, on its edge. Raises BadInput for others, and for a cloud of a sheet that is no rectangle."""
+    """Return the measurements, with points that are off the sheet by rounding alone, within ON_EDGE of its
+    longer side, moved to its edge. Raises BadInput for others, and for a cloud of a sheet that is no
+    rectangle."""
     if isinstance(measured, Surface):
         if scene.pierced:
             raise BadInput(

@@ -3,15 +3,15 @@
 CSV (`comparisons.identification.columns`), in metres and in the scene's axes, with the columns
 
     x,y,ux,uy,uz    plan point on the flat sheet, then its displacement; a component may be left empty
-    x,y,uz          the same of deflections alone
+    x,y,uz          plan point on the flat sheet, then its deflection
     x,y,z           points of the deformed surface, a height map or a scan
 
-A further column sd is the standard deviation of the numbers of each row. In the place of x,y a column probe
-may name probes of the scene. With a further column time [s] displacements are samples of a motion from rest.
-Other columns are passed over.
+A further column sd is the standard deviation of the numbers of each row. A column probe with names of probes
+of the scene may replace x,y. Displacements with a further column time [s] are samples of a motion from rest.
+Other columns are ignored.
 
-VTP or PLY: points (x, y, z) [m] of the deformed surface, in the scene's axes. Which material point each of
-them is need not be known.
+VTP or PLY: points (x, y, z) [m] of the deformed surface, in the scene's axes. Their material points need not
+be known.
 
 C3D: markers of a motion capture that have the names of probes, in the scene's axes; displacements are from
 the first frame, which is the sheet at rest at time 0.
@@ -67,7 +67,7 @@ class Displacements:
 
     @property
     def measured(self) -> np.ndarray:
-        """(n, 3) bool."""
+        """Whether each component was measured, (n, 3)."""
         return np.isfinite(self.displacement)
 
     @property
@@ -101,7 +101,7 @@ class Displacements:
 
 @dataclass(frozen=True)
 class Surface:
-    """points: (n, 3) [m] of the deformed surface; source, deviation: as of `Displacements`."""
+    """Points of the deformed surface (n, 3) [m]; source, deviation: as of `Displacements`."""
 
     points: np.ndarray
     source: str = "measured"
@@ -131,7 +131,7 @@ def typical_deviation(measured: Measured) -> float:
 
 
 def read(path: Path, scene: Scene) -> Measured:
-    """Return the measurements of a file. Raises BadInput naming the file and what is wrong in it."""
+    """Return the measurements of a file. Raises BadInput naming the file and the fault."""
     kind = path.suffix.lower()
     if kind == ".c3d":
         measured: Measured = _markers(path, scene)
@@ -143,7 +143,7 @@ def read(path: Path, scene: Scene) -> Measured:
 
 
 def _markers(path: Path, scene: Scene) -> Displacements:
-    """Rows of the markers that have names of probes, frame by frame."""
+    """Return rows of the markers that have names of probes, frame by frame."""
     found = read_markers(path)
     of_probe = {_plain(name): point for name, point in scene.probes.items()}
     named = [(i, point) for i, label in enumerate(found.labels) if (point := of_probe.get(_plain(label)))]
@@ -189,7 +189,7 @@ def _table(path: Path, scene: Scene) -> Measured:
 
 
 def _heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:
-    """Points of the surface where z is measured."""
+    """Return the points of the surface with a measured z."""
     if "time" in columns.names:
         raise BadInput(f"{path}: column time: a motion is measured as ux,uy,uz of marked points")
     found = [[row.number("x"), row.number("y"), row.measured("z")] for row in columns.rows]
@@ -218,8 +218,7 @@ def _probe(row: Row, scene: Scene) -> list[float]:
 def require_flat_start(path: Path, time: np.ndarray, displacement: np.ndarray) -> None:
     """Raise BadInput where a motion does not begin at time 0, or a sample there is moved by more than noise.
 
-    time: (n,) [s]; displacement: (n, 3) [m], nan where not measured.
-    """
+    time: (n,) [s]; displacement: (n, 3) [m], nan where not measured."""
     if time.min() < 0.0 or time.max() == 0.0:
         raise BadInput(f"{path}: time: the motion starts at 0 and goes on to later times")
     moved = np.nan_to_num(displacement)
@@ -234,7 +233,9 @@ def require_flat_start(path: Path, time: np.ndarray, displacement: np.ndarray) -
 
 
 def _require_metres(moved: np.ndarray, sheet: Sheet, where: Sequence[str]) -> None:
-    """moved: (n, 3), nan where not measured; where: what names each row."""
+    """Raise BadInput for displacements too large to be in metres.
+
+    moved: (n, 3), nan where not measured; where: name of each row in the message."""
     sizes = np.abs(np.nan_to_num(moved)).max(axis=1)
     row, side = int(sizes.argmax()), max(sheet.lengths)
     if sizes[row] > FARTHEST * side:

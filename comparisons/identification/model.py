@@ -1,9 +1,9 @@
-"""The model that is fitted: what it has at the measured points, and its slopes by the unknowns.
+"""Fitted models: displacements at the measured points, and their slopes by the unknowns.
 
 statics                         derivatives of the equilibrium, a solution with its factors each; of the
                                 solid, which has none, central differences of whole solutions
-motion from rest                derivatives along the run of a lattice that touches nothing and has no chains,
-                                by what leaves its supports alone; else central differences of whole runs;
+motion from rest                derivatives along the run of a lattice without obstacles and actuators, by
+                                unknowns that do not move supports; else central differences of whole runs;
                                 cubic in time between samples
 """
 
@@ -37,12 +37,13 @@ STEPS_PER_PERIOD = 100  # of a reference, fixed: frequencies within (2π/100)²/
 
 
 class NotReached(NoEquilibrium):
-    """The model has no answer here; the text says how it ended."""
+    """No equilibrium, or a run that ended early, at an x of the unknowns; the text has the status of the
+    solution."""
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """displacement: (n, 3) [m]; slopes: by x of each unknown, (n, 3) [m], in their order."""
+    """Displacements (n, 3) [m] at the measured points, and their slopes (n, 3) [m] by x of each unknown."""
 
     displacement: np.ndarray
     slopes: list[np.ndarray]
@@ -53,10 +54,9 @@ Predictor = Callable[[Sequence[Unknown], np.ndarray, np.ndarray, np.ndarray | No
 
 @dataclass(frozen=True)
 class Model:
-    """settings: of the model; axes: the plan grid on which it gives its whole surface; predict: called with
-    unknowns, their x (see `comparisons.identification.unknowns`), plan points (n, 2) [m] and the times (n,)
-    [s] of a motion, None at rest. It raises NotReached where the model has no stable equilibrium, or its run
-    ended early."""
+    """A model to fit. axes: the plan grid of its whole surface; predict: called with unknowns, their x (see
+    `comparisons.identification.unknowns`), plan points (n, 2) [m] and the times (n,) [s] of a motion, None at
+    rest. It raises NotReached where the model has no stable equilibrium, or its run ended early."""
 
     settings: dict[str, Any]
     axes: tuple[np.ndarray, np.ndarray]
@@ -64,7 +64,8 @@ class Model:
 
 
 def lattice_model(scene: Scene, requested: Lattice) -> Model:
-    """Return the lattice requested, what it leaves open chosen by the scene's own values."""
+    """Return the requested lattice as a model to fit; settings left open are chosen by the scene's own
+    values."""
     import lumped
 
     chosen = resolve(scene, requested, own=False)
@@ -79,7 +80,7 @@ def lattice_model(scene: Scene, requested: Lattice) -> Model:
 
 
 def reference_model(model: Resolved[Elements]) -> Model:
-    """Return a finite-element reference."""
+    """Return a finite-element reference as a model to fit."""
     import fem_reference
 
     scene, options = model.scene, model.spec.options
@@ -133,7 +134,7 @@ def _predict(
 
 
 def _still(model: Resolved[Any], here: Scene) -> Solution:
-    """Return the equilibrium of a scene like the model's."""
+    """Return the model's equilibrium of a scene with other values. Raises NotReached without a stable one."""
     try:
         solution = solve(model.on(here))
     except (BadInput, NoEquilibrium) as error:
@@ -153,8 +154,8 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
 def _moved(
     run_of: Callable[[Scene, float], History], time: np.ndarray, here: Scene, points: np.ndarray
 ) -> np.ndarray:
-    """Displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s], and derivatives
-    that the run has, (1 + parameters, n, 3)."""
+    """Return displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s], and
+    derivatives of the run, (1 + parameters, n, 3)."""
     from scipy.interpolate import CubicSpline
 
     places, which = np.unique(points, axis=0, return_inverse=True)

@@ -3,9 +3,9 @@
 C3D is read with `ezc3d`, an extra. A file may be another person's, and ezc3d does not survive damaged ones:
 reading is a program of its own (`c3d_reader`) with limits of time and memory, and its numbers are checked.
 
-Of a PLY file, in ASCII or binary, points are the element "vertex". Header lines up to `end_header`: `format`,
-then for each element `element NAME COUNT` with its `property TYPE NAME` or `property list TYPE TYPE NAME`.
-The elements' rows follow in that order. Source: Turk, The PLY Polygon File Format (1994).
+The points of a PLY file, in ASCII or binary, are its element "vertex". Header lines to `end_header`:
+`format`, then for each element `element NAME COUNT` with its `property TYPE NAME` or `property list TYPE TYPE
+NAME`. The elements' rows follow in that order. Source: Turk, The PLY Polygon File Format (1994).
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ MEMORY_MB, LARGEST = 4096, 2**28  # of address space; bytes of a file
 
 
 class Markers(NamedTuple):
-    """labels: (n,); position: (n, frames, 3) [m], nan where a marker was not seen; time: (frames,) [s]."""
+    """Markers of a motion capture: labels (n,); position (n, frames, 3) [m], nan where a marker was not seen;
+    time (frames,) [s]."""
 
     labels: tuple[str, ...]
     position: np.ndarray
@@ -77,19 +78,19 @@ ORDERS = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 @dataclass(frozen=True)
 class Element:
-    """An element's name, how many rows it has, and its properties (name, numpy type); a list has no type."""
+    """An element's name, its number of rows, and its properties (name, numpy type); a list has no type."""
 
     name: str
     count: int
     properties: list[tuple[str, str]]
 
     def row(self, order: str) -> np.dtype:
-        """Return a row's type. Raises TypeError where there is a list in it."""
+        """Return a row's type. Raises TypeError if the element has a list."""
         return np.dtype([(name, order + kind) for name, kind in self.properties])
 
 
 def read_points(path: Path) -> np.ndarray:
-    """Positions (n, 3) of the vertices. Raises BadInput where the file is no PLY, or is damaged."""
+    """Return positions (n, 3) of the vertices. Raises BadInput for another format or a damaged file."""
     data = path.read_bytes()
     head, end, body = data.partition(b"end_header")
     body = body[1:] if body[:1] == b"\n" else body[2:]
@@ -115,7 +116,7 @@ def read_points(path: Path) -> np.ndarray:
 
 
 def _header(lines: list[str]) -> tuple[str, list[Element]]:
-    """Byte order and elements; whatever error where it cannot be understood."""
+    """Return byte order and elements of a PLY header. Raises errors of any type for a damaged header."""
     order, elements = "", []
     for line in lines:
         word, *rest = line.split() or [""]

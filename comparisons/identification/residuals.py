@@ -1,11 +1,10 @@
 """Residuals: the runs test for noise, rows that do not fit, and warnings about a fit.
 
-Independent noise gives two neighbouring residuals the same sign as often as not. Neighbours are consecutive
-samples of a motion at one point, and points joined by the minimal spanning tree of the plan at rest. A tree
-has no cycles, so that the pairs' signs are independent and the number of equal ones is binomial, m pairs with
-probability 1/2, whatever the noise's distribution, if its median is 0.
-Sources: Wald and Wolfowitz, Ann. Math. Statist. 11 (1940) 147; Friedman and Rafsky, Ann. Statist. 7 (1979)
-697.
+Independent noise gives two neighbouring residuals equal signs with probability 1/2. Neighbours are
+consecutive samples of a motion at one point, and points joined by the minimal spanning tree of the plan at
+rest. A tree has no cycles, so that the pairs' signs are independent and the number of equal ones is binomial,
+m pairs with probability 1/2, whatever the noise's distribution, if its median is 0. Sources: Wald and
+Wolfowitz, Ann. Math. Statist. 11 (1940) 147; Friedman and Rafsky, Ann. Statist. 7 (1979) 697.
 
 Rows of a table may not fit while the others do: typing slips, lost markers. The row farthest off is left out
 and the fit made again from where it was; it is named if it is then FAR times the others' standard deviation
@@ -40,7 +39,8 @@ NEIGHBOURS = 12  # of a point, among which the spanning tree is looked for
 
 @dataclass(frozen=True)
 class Runs:
-    """Of `pairs` neighbouring residuals `equal` have the same sign; along: "time" or "space"."""
+    """The runs test of residuals: `equal` of `pairs` neighbouring residuals have one sign; along: "time" or
+    "space"."""
 
     equal: int
     pairs: int
@@ -48,7 +48,7 @@ class Runs:
 
     @property
     def probability(self) -> float:
-        """That independent noise gives so many pairs the same sign, or more."""
+        """Probability that independent noise gives one sign to `equal` pairs or more."""
         return float(bdtrc(self.equal - 1, self.pairs, 0.5)) if self.equal else 1.0
 
     def __str__(self) -> str:
@@ -68,13 +68,13 @@ def runs(measured: Measured, residuals: np.ndarray) -> Runs:
 
 
 def explained(noise: float, found: Runs, deviation: float = 0.0) -> bool:
-    """Return whether residuals of this standard deviation, in units of the largest measurement, are small,
-    not larger than those of the measurements, or noise."""
+    """Return whether residuals with a standard deviation `noise`, in units of the largest measurement, are
+    small, not larger than the measurements' `deviation`, or noise by the runs test."""
     return noise < max(SMALL, deviation) or (noise < POOR and found.probability > UNLIKELY)
 
 
 def _pairs(measured: Measured) -> tuple[np.ndarray, str]:
-    """Numbers of neighbouring rows (m, 2), and along what they are neighbours."""
+    """Return pairs of neighbouring rows (m, 2), and whether they are neighbours along "time" or "space"."""
     if measured.time is not None:
         _, place = np.unique(measured.points, axis=0, return_inverse=True)
         order = np.lexsort((measured.time, place.ravel()))
@@ -99,8 +99,8 @@ NORMAL = 1.4826  # standard deviation over the median of |noise|, of normal nois
 
 @dataclass(frozen=True)
 class Outlier:
-    """A row that does not fit: its number, its name, its component that is farthest off, that component as
-    measured and as the fit of all other rows has it [m]."""
+    """A row that does not fit: its number, its name, its component with the largest residual, and that
+    component [m], measured and by the fit of all other rows."""
 
     row: int
     name: str
@@ -116,7 +116,7 @@ class Outlier:
 
 
 def outliers(fit: Fit, best: Nearest) -> tuple[Outlier, ...]:
-    """Return the rows that do not fit, beside the best search of all rows; none of a surface."""
+    """Return the rows that do not fit; best: the search over all rows. A surface has none."""
     measured = fit.measured
     if not isinstance(measured, Displacements):
         return ()
@@ -149,7 +149,7 @@ CELLS = "cells half as large"
 
 
 def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
-    """Return why residuals are more than noise, and what may be done."""
+    """Return a warning of residuals that are more than noise, with a remedy."""
     names = ", ".join(u.name for u in fit.unknowns)
     tried = f"the best of {starts} starts" if starts > 1 else "the search"
     deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
@@ -167,8 +167,8 @@ def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
 
 
 def on_start(fit: Fit, best: Nearest, found: Mapping[str, Estimate]) -> list[str]:
-    """Return the values that are more than FACTOR times the scene's, or less than a FACTOR-th of it, and the
-    largest measurement beside the model's with the scene's own values."""
+    """Return a warning of values more than FACTOR times the scene's, or less than a FACTOR-th of it, with the
+    largest measurement beside the model's displacement with the scene's own values."""
     far = [
         f"{u.name} = {quantity(u.value(x), u.unit, '.3g')} is {few(u.value(x) / u.start, 3)} times the "
         f"scene's {quantity(u.start, u.unit, '.3g')}"
@@ -194,8 +194,8 @@ def _beside(fit: Fit) -> str:
 
 
 def on_ties(fit: Fit, best: Nearest) -> list[str]:
-    """Return whether numbers are rounded so far that their scatter says less than the rounding does: half of
-    them are equal to another one, and the residuals are below a rounding's to the nearest other number."""
+    """Return a warning of rounded numbers, with a scatter below the rounding error: half of the numbers are
+    equal to another one, and the residuals are below the rounding error of the smallest difference."""
     measured = fit.measured
     if not isinstance(measured, Displacements) or measured.deviation is not None:
         return []
@@ -212,7 +212,7 @@ def on_ties(fit: Fit, best: Nearest) -> list[str]:
 
 
 def on_bounds(fit: Fit, best: Nearest) -> list[str]:
-    """Return the unknowns that ended at a bound of the search."""
+    """Return warnings of unknowns that ended at a bound of the search."""
     return [
         f"{u.name} hit its search bound {quantity(u.value(x), u.unit)}: the data do not constrain it"
         for u, x, active in zip(fit.unknowns, best.x, best.against_bounds, strict=True)
@@ -223,8 +223,8 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
 def on_grid(
     found: Mapping[str, Estimate], model: str, looked: bool, chosen: Sequence[int] | None = None
 ) -> list[str]:
-    """Return what the lattice's cells, or the elements of another model, do to the values; chosen: the grid
-    that the fit left the search with."""
+    """Return warnings of intervals that consist mostly of the error of the grid or mesh, or that lack it;
+    looked: whether it was estimated; chosen: the last grid, if the fit chose it."""
     lattice = model == "lumped"
     other, error = (CELLS, "grid's") if lattice else ("elements twice as large", "mesh's")
     seen = [u for u in found.values() if u.determined and u.interval is not None]

@@ -3,7 +3,7 @@
 φ(x, y) = (x, y, 0) + u(x, y), with u a cubic spline through the displacements on a plan grid. The foot of a
 point P minimises |P − φ| over the sheet (Gauss–Newton in x, y); the distance is the component of P − φ along
 the normal there, so that sliding within the surface, or a point measured beyond the sheet's edge, counts for
-nothing. By the envelope theorem the distance changes with a parameter as −n · ∂u/∂θ at the foot. Metres.
+nothing. The distance's derivative by a parameter is −n · ∂u/∂θ at the foot (envelope theorem). Metres.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ CLOSE = 1e-10  # of the sheet's longer side: a step of the foot that ends the se
 
 
 def plan_grid(lengths: tuple[float, float], counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates along x and along y [m], ends included."""
+    """Return coordinates along x and along y [m], ends included."""
     return np.linspace(0.0, lengths[0], counts[0]), np.linspace(0.0, lengths[1], counts[1])
 
 
@@ -39,13 +39,13 @@ class Field:
         ]
 
     def at(self, points: np.ndarray, dx: int = 0, dy: int = 0) -> np.ndarray:
-        """Values, or derivatives of order (dx, dy), at plan points (n, 2): (n, 3)."""
+        """Return values, or derivatives of order (dx, dy), at plan points (n, 2): (n, 3)."""
         return np.stack([part.ev(*points.T, dx=dx, dy=dy) for part in self._parts], axis=1)
 
 
 @dataclass(frozen=True)
 class Feet:
-    """Of every measured point: foot (n, 2) on the flat sheet [m], unit normal (n, 3), distance (n,) [m],
+    """Feet of measured points: (n, 2) on the flat sheet [m], unit normals (n, 3), distances (n,) [m],
     positive on the side of the normal (initially +z)."""
 
     points: np.ndarray

@@ -40,7 +40,7 @@ SOFTEST = 1e3  # Pa
 
 @dataclass(frozen=True)
 class Curve:
-    """stretch (n,), engineering stress (n,) [Pa]; file: where from."""
+    """A curve of stretch (n,) and engineering stress (n,) [Pa]; file: its source."""
 
     test: str
     stretch: np.ndarray

@@ -1,15 +1,15 @@
 """Constants of the laws of rubber from curves of incompressible sheets, with intervals.
 
-With x = I₁ − 3 and f, c₀₁ of `scenes.objects.material`, engineering stress is 2 (f′(x) + c₀₁ m)(λ − w):
+Engineering stress is 2 (f′(x) + c₀₁ m)(λ − w), with x = I₁ − 3 and f, c₀₁ of `scenes.objects.material`:
 
     uniaxial     m = 1/λ    w = λ⁻²    I₁ = λ² + 2/λ
     pure shear   m = 1      w = λ⁻³    I₁ = λ² + 1 + λ⁻²
     equibiaxial  m = λ²     w = λ⁻⁵    I₁ = 2λ² + λ⁻⁴
 
 Least squares of the misfit over each curve's largest stress, within the bounds of laws that pull at any
-stretch (c1, c2 of mooney-rivlin, c1 and c3 of yeoh not below 0). What is left is seldom noise alone:
-neighbours are alike, and n rows tell as much as n (1 − ρ)/(1 + ρ) independent ones, ρ the correlation of a
-row's misfit with the next one's (AR(1)); intervals are Student's with these. Sources: Treloar, The
+stretch (c1, c2 of mooney-rivlin, c1 and c3 of yeoh not below 0). Misfits of neighbouring rows are
+correlated: n rows count as n (1 − ρ)/(1 + ρ) independent ones, ρ the correlation of a row's misfit with the
+next one's (AR(1)), in the degrees of freedom of Student's intervals. Sources: Treloar, The
 Physics of Rubber Elasticity (1975); Bates and Watts, Nonlinear Regression Analysis (1988).
 """
 
@@ -37,7 +37,8 @@ KEYS = {"neo-hookean": ("young",), **{law: words.keys for law, words in WORDS.it
 
 
 def energy(law: str, constants: Sequence[float]) -> Energy:
-    """Return the energy of a law's constants; neo-Hooke's is Young's modulus of an incompressible sheet."""
+    """Return the energy of a law's constants; neo-Hooke's constant is Young's modulus of an incompressible
+    sheet."""
     return Energy(constants[0] / 6.0) if law == "neo-hookean" else WORDS[law].energy(*constants)
 
 
@@ -51,7 +52,7 @@ def kinematics(test: str, stretch: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
 
 
 def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
-    """Engineering stress (n,) [Pa] of an incompressible sheet."""
+    """Return engineering stress (n,) [Pa] of an incompressible sheet."""
     m, w, x = kinematics(test, stretch)
     slope = of.c10 / (1.0 - x / of.limit) if of.limit else of.c10 + 2.0 * of.c20 * x + 3.0 * of.c30 * x * x
     return np.asarray(2.0 * (slope + of.c01 * m) * (stretch - w))
@@ -60,8 +61,9 @@ def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
 @dataclass(frozen=True)
 class Fit:
     """A law's constants with 95 % intervals; young: of small strains [Pa]; rms and largest misfit over the
-    largest stress; independent: rows that tell as much; correlation: of its first two constants; unstable:
-    why no material may have these constants; bound: those that are at their bounds."""
+    largest stress; independent: number of independent rows; correlation: of its first two constants;
+    unstable: the reason why no material may have the constants, "" if one may; bound: constants at their
+    bounds."""
 
     law: str
     constants: dict[str, float]
@@ -80,7 +82,7 @@ class Fit:
 
 
 def fit(law: str, curves: Sequence[Curve]) -> Fit | None:
-    """Return the law's constants nearest to the curves; None where there are too few rows."""
+    """Return the law's constants nearest to the curves, or None if there are too few rows."""
     scale = [float(np.abs(curve.stress).max()) for curve in curves]
     rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
     if rows < len(keys) + (3 if len(keys) > 1 else 2):
@@ -131,8 +133,9 @@ def fit(law: str, curves: Sequence[Curve]) -> Fit | None:
 
 
 def chosen(fits: Sequence[Fit], curves: Sequence[Curve]) -> Fit | None:
-    """Return the law that the curves ask for: of few constants among those that fit well. One kind of test
-    does not tell c1 from c2 of mooney-rivlin, which is then left out; so is a limit that is not seen."""
+    """Return the law with the fewest constants among the laws that fit well, None without one. One kind of
+    test cannot distinguish c1 from c2 of mooney-rivlin, which is then left out; so is a limit beyond the
+    data."""
     several = len({curve.test for curve in curves}) > 1
     able = [f for f in fits if not f.unstable and "limit" not in f.bound]
     able = [f for f in able if several or f.law != "mooney-rivlin"]
@@ -151,7 +154,7 @@ _BOUNDS = {
 
 
 def _independent(left: np.ndarray) -> float:
-    """Rows that tell as much as these, whose neighbours are alike."""
+    """Return the number of independent rows with as much information as correlated misfits."""
     whole = float(left @ left)
     alike = float(left[1:] @ left[:-1]) / whole if whole > 0.0 else 0.0
     alike = min(max(alike, 0.0), 1.0 - 1.0 / len(left))

@@ -1,4 +1,4 @@
-"""Which law of rubber a tensile test asks for, with its constants: `sheetbench identify --tensile`."""
+"""Choice of a law of rubber, and its constants, from a tensile test: `sheetbench identify --tensile`."""
 
 from __future__ import annotations
 
@@ -33,8 +33,7 @@ MISFITS = (
 
 @dataclass(frozen=True, repr=False)
 class TensileFit(Answer):
-    """curves: as measured; fits: of every law; law: the one that the curves ask for, None where no law fits
-    stably."""
+    """Fits of all laws to measured curves; law: the chosen one, None if no law fits stably."""
 
     file_name = "tensile"
     curves: tuple[Curve, ...]
@@ -43,7 +42,7 @@ class TensileFit(Answer):
 
     @property
     def covered(self) -> dict[str, tuple[float, float]]:
-        """The least and largest stretch of each kind of test."""
+        """Least and largest stretch of each kind of test."""
         kinds = {curve.test for curve in self.curves}
         each = {kind: np.concatenate([c.stretch for c in self.curves if c.test == kind]) for kind in kinds}
         return {
@@ -76,7 +75,8 @@ class TensileFit(Answer):
         return "Tensile test", f"{rows} rows, stretch covered: {covered}", ""
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row per constant of every law, and how well each fits and what speaks against it."""
+        """Return a row per constant of every law, and a row per law with its misfit and the reason against
+        it."""
         constants = [
             (f.law, key, unit("" if key == "limit" else "Pa"), value, *f.intervals[key])
             for f in self.fits
@@ -95,7 +95,7 @@ class TensileFit(Answer):
         return (Picture("tensile", "comparisons.identification.figure:tensile", (self,)),)
 
     def notes(self) -> list[str]:
-        """Return what to put into a scene, and what the curves leave open."""
+        """Return lines for a scene with the chosen law, and the reason for leaving out mooney-rivlin."""
         sentences = []
         mooney = next((f for f in self.fits if f.law == "mooney-rivlin"), None)
         if mooney is not None and len(self.covered) == 1:
@@ -139,9 +139,8 @@ def identify_tensile(
     """Return the constants of every law of rubber from curves or files (`curves.read`), and the law to take.
 
     area [m²]: undeformed cross-section, for columns of force; gauge [m]: undeformed length, for columns of
-    displacement; up_to: largest stretch of files to fit. Raises BadInput for what is no loading branch of
-    engineering or true stress.
-    """
+    displacement; up_to: largest stretch of files to fit. Raises BadInput for a curve other than a loading
+    branch of engineering or true stress."""
     given = [curves] if isinstance(curves, Curve | str) else list(curves)
     measured = tuple(c if isinstance(c, Curve) else read(c, area, up_to, gauge) for c in given)
     for curve in measured:

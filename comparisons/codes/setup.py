@@ -36,15 +36,7 @@ from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
-from sheetbench.scenes import (
-    EDGES,
-    AnyScene,
-    Scene,
-    SceneError,
-    require_static,
-    require_uniform,
-    scene_of,
-)
+from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import Hinged, Point

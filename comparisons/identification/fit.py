@@ -80,18 +80,18 @@ class Fit:
         """Return weighted residuals (m,) and their slopes (m, n) by the unknowns' x."""
         measured, scale, axes = self.measured, self.measured.scale, self.model.axes
         if isinstance(measured, Displacements):
-            given = measured.measured
-            slopes = [slope[given] for slope in predicted.slopes]
-            residuals = (predicted.displacement - measured.displacement)[given]
+            mask = measured.measured
+            slopes = [slope[mask] for slope in predicted.slopes]
+            residuals = (predicted.displacement - measured.displacement)[mask]
         else:
-            found = surface.feet(axes, surface.Field(axes, predicted.displacement), measured.points)
+            feet = surface.feet(axes, surface.Field(axes, predicted.displacement), measured.points)
             slopes = [
-                np.einsum("nc,nc->n", found.normals, surface.Field(axes, slope).at(found.points))
+                np.einsum("nc,nc->n", feet.normals, surface.Field(axes, slope).at(feet.points))
                 for slope in predicted.slopes
             ]
-            residuals = self.offset - found.distances
-        by = self.weights / scale
-        return by * residuals, by[:, None] * np.stack(slopes, axis=1)
+            residuals = self.offset - feet.distances
+        factor = self.weights / scale
+        return factor * residuals, factor[:, None] * np.stack(slopes, axis=1)
 
     @property
     def weights(self) -> np.ndarray:
@@ -137,7 +137,7 @@ class Fit:
         else:
             name, deflection = "heights", measured.points[:, 2]
             model = surface.Field(axes, predicted.displacement).at(measured.points[:, :2])[:, 2]
-        correlation = _correlation(model, deflection, measured.scale)
+        correlation = _correlate(model, deflection, measured.scale)
         if correlation < OPPOSITE:
             raise BadInput(
                 f"{measured.source}: the measured {name} have the opposite sign of the model's (correlation "
@@ -147,61 +147,51 @@ class Fit:
     def search(
         self,
         start: np.ndarray,
-        first: Callable[[Fit, Prediction], None] | None = None,
+        check: Callable[[Fit, Prediction], None] | None = None,
         smallest: float = SMALLEST,
         evaluations: int = EVALUATIONS,
         pull: float = PULL,
     ) -> Nearest:
         """Return the unknowns' x with which the model comes nearest to the measurements.
 
-        start: x to begin at; first: a check, called with this fit and the prediction at the start, that may
+        start: x to begin at; check: called with this fit and the prediction at the start, that may
         raise; smallest: change of x, or of the sum of squares, that ends the search; evaluations: their
         largest number; pull: towards the scene's own values. Raises NotReached if the model has no
         equilibrium at the start."""
-        kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
+        cache: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
 
-        def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        def evaluate(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             key = x.tobytes()
-            if key not in kept:
+            if key not in cache:
                 predicted = self.predict(x)
-                if first and not kept:
-                    first(self, predicted)
-                kept[key] = self.residuals(predicted)
-                size = float(np.sqrt(np.mean(kept[key][0] ** 2)))
-                known = ", ".join(
-                    f"{u.name} = {u.value(z):.6g}" for u, z in zip(self.unknowns, x, strict=True)
-                )
-                context().progress(f"{known}: off by {100 * size:.3g} % of the largest measurement")
-            return kept[key]
+                if check and not cache:
+                    check(self, predicted)
+                cache[key] = self.residuals(predicted)
+                rms = float(np.sqrt(np.mean(cache[key][0] ** 2)))
+                terms = (f"{u.name} = {u.value(z):.6g}" for u, z in zip(self.unknowns, x, strict=True))
+                context().progress(f"{', '.join(terms)}: off by {100 * rms:.3g} % of the largest measurement")
+            return cache[key]
 
         def residuals(x: np.ndarray) -> np.ndarray:
             try:
-                return np.concatenate([at(x)[0], pull * x])
+                return np.concatenate([evaluate(x)[0], pull * x])
             except NotReached as error:
                 context().progress(f"no answer there: {error}")
                 return np.concatenate([np.full(count, REFUSED), pull * x])
 
         low, high = np.array([u.bounds() for u in self.unknowns]).T
         start = np.clip(start, low, high)
-        count = len(at(start)[0])
-        best = least_squares(
-            residuals,
-            start,
-            jac=lambda x: np.vstack([at(x)[1], pull * np.eye(len(x))]),
-            bounds=(low, high),
-            xtol=smallest,
-            ftol=smallest,
-            gtol=1e-12,
-            max_nfev=evaluations,
-        )
-        return Nearest(best.x, *at(best.x), best.active_mask, len(kept), best.status > 0)
+        count = len(evaluate(start)[0])
+        limits = {"xtol": smallest, "ftol": smallest, "gtol": 1e-12, "max_nfev": evaluations}
+        slopes = lambda x: np.vstack([evaluate(x)[1], pull * np.eye(len(x))])  # noqa: E731
+        end = least_squares(residuals, start, slopes, bounds=(low, high), **limits)
+        return Nearest(end.x, *evaluate(end.x), end.active_mask, len(cache), end.status > 0)
 
 
-def _correlation(model: np.ndarray, measured: np.ndarray, scale: float) -> float:
-    """Return Σ model · measured over both norms, of measured numbers; 0 where they are small or nothing
-    moves."""
-    given = np.isfinite(measured)
-    model, measured = model[given], measured[given]
+def _correlate(model: np.ndarray, measured: np.ndarray, scale: float) -> float:
+    """Return the correlation of the model with measured numbers, 0 where they are small or nothing moves."""
+    present = np.isfinite(measured)
+    model, measured = model[present], measured[present]
     norms = float(np.linalg.norm(model) * np.linalg.norm(measured))
     if norms == 0.0 or np.abs(measured).max() < TELLING * scale:
         return 0.0
@@ -219,58 +209,59 @@ Refusal = Callable[[Fit, Prediction], None]
 
 
 def nearest(
-    fit: Fit, enough: Callable[[Nearest], bool], first: Refusal = Fit.require_same_way
+    fit: Fit, suffices: Callable[[Nearest], bool], check: Refusal = Fit.require_same_way
 ) -> tuple[Nearest, int]:
-    """Return the best of the searches, and the number of starts made; enough: whether a result needs no
+    """Return the best of the searches, and the number of starts made; suffices: whether a result needs no
     further start.
 
-    first: a check, called with the fit of the first start, or of the first part of a motion, and the
+    check: called with the fit of the first start, or of the first part of a motion, and the
     prediction there, that may raise. Raises NotReached if the model has no equilibrium with the scene's own
     values, of a motion with no start."""
-    reached: list[np.ndarray] = []
+    earlier: list[np.ndarray] = []
     low, high = np.array([u.bounds() for u in fit.unknowns]).T
-    spread = np.minimum(SPREAD, 0.5 * (high - low))
+    widths = np.minimum(SPREAD, 0.5 * (high - low))
     points = 2.0 * Halton(len(low), scramble=False).random(STARTS + 1)[1:] - 1.0
     best, failure = None, NotReached()
-    for made, point in enumerate([np.zeros(len(low)), *points], 1):
-        if made > 1:
-            context().progress(f"not noise yet: start {made} of {STARTS + 1}")
+    for start, point in enumerate([np.zeros(len(low)), *points], 1):
+        if start > 1:
+            context().progress(f"not noise yet: start {start} of {STARTS + 1}")
         try:
-            found = _from(fit, np.clip(spread * point, low, high), reached, first if made == 1 else None)
+            x = np.clip(widths * point, low, high)
+            result = _search(fit, x, earlier, check if start == 1 else None)
         except NotReached as error:
-            if made == 1 and not reached:
+            if start == 1 and not earlier:
                 raise
-            failure = error if made == 1 else failure
+            failure = error if start == 1 else failure
             continue
-        if found is not None and (best is None or found.noise < best.noise):
-            best = found
-            if enough(best):
-                return best, made
+        if result is not None and (best is None or result.noise < best.noise):
+            best = result
+            if suffices(best):
+                return best, start
     if best is None:
         raise failure
     return best, STARTS + 1
 
 
-def _from(fit: Fit, start: np.ndarray, reached: list[np.ndarray], first: Refusal | None) -> Nearest | None:
+def _search(fit: Fit, start: np.ndarray, earlier: list[np.ndarray], check: Refusal | None) -> Nearest | None:
     """Return the search from a start, over growing parts of a motion, or None if it reaches an earlier
-    search's x. reached: x after the first part of each search so far; this search adds its own."""
-    parts = _parts(fit)
-    for at, part in enumerate((*parts, fit)):
-        rough = ROUGH if part is not fit else {"smallest": ENOUGH} if parts else {}
-        found = part.search(start, first if at == 0 else None, **rough)
-        start = found.x
-        if parts and at == 0:
-            if any(np.abs(start - x).max() < ALIKE for x in reached):
+    search's x. earlier: x after the first part of each search so far; this search adds its own."""
+    parts = _split_record(fit)
+    for index, part in enumerate((*parts, fit)):
+        options = ROUGH if part is not fit else {"smallest": ENOUGH} if parts else {}
+        result = part.search(start, check if index == 0 else None, **options)
+        start = result.x
+        if parts and index == 0:
+            if any(np.abs(start - x).max() < ALIKE for x in earlier):
                 return None
-            reached.append(start)
-    return found
+            earlier.append(start)
+    return result
 
 
-def _parts(fit: Fit) -> list[Fit]:
+def _split_record(fit: Fit) -> list[Fit]:
     """Return the fits of parts of a motion that precede the fit of the whole."""
     measured = fit.measured
     if not isinstance(measured, Displacements) or measured.time is None:
         return []
     parts = [measured.until(share * float(measured.time.max())) for share in PARTS]
-    enough = FEWEST * len(fit.unknowns)
-    return [replace(fit, measured=part) for part in parts if part.measured.sum() >= enough]
+    needed = FEWEST * len(fit.unknowns)
+    return [replace(fit, measured=part) for part in parts if part.measured.sum() >= needed]

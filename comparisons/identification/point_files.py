@@ -50,21 +50,21 @@ def read_markers(path: Path) -> Markers:
     # -P: the modules beside the program are not its own
     command = [sys.executable, "-P", c3d_reader.__file__, str(path)]
     seconds = SECONDS + PER_MB * size / 2**20
-    ended = run(command, b"", seconds, MEMORY_MB, most=8 * LARGEST, variables=ONE_THREAD)
-    if ended.fault:
-        refused = ended.code == c3d_reader.REFUSED and not ended.stopped
-        raise BadInput(f"{path}: cannot be read as C3D: {ended.complaint if refused else ended.fault}")
-    with np.load(BytesIO(ended.answer)) as archive:
-        found = dict(archive)
-    labels, rate = tuple(map(str, found["labels"])), float(found["rate"])
-    position = found["position"].transpose(1, 2, 0)
+    process = run(command, b"", seconds, MEMORY_MB, most=8 * LARGEST, variables=ONE_THREAD)
+    if process.fault:
+        unreadable = process.code == c3d_reader.REFUSED and not process.stopped
+        raise BadInput(f"{path}: cannot be read as C3D: {process.complaint if unreadable else process.fault}")
+    with np.load(BytesIO(process.answer)) as archive:
+        content = dict(archive)
+    labels, rate = tuple(map(str, content["labels"])), float(content["rate"])
+    position = content["position"].transpose(1, 2, 0)
     if not (0.0 < rate < np.inf and position.size):
         raise BadInput(f"{path}: no markers over time in it")
     if len(labels) != len(position):
         raise BadInput(f"{path}: {len(labels)} labels of {len(position)} markers")
     if np.isinf(position).any():
         raise BadInput(f"{path}: a marker's position is no finite number")
-    scale = quantity(f"1 {found['unit']}", "m")
+    scale = quantity(f"1 {content['unit']}", "m")
     return Markers(labels, scale * position, np.arange(position.shape[1]) / rate)
 
 
@@ -92,22 +92,22 @@ class Element:
 def read_points(path: Path) -> np.ndarray:
     """Return positions (n, 3) of the vertices. Raises BadInput for another format or a damaged file."""
     data = path.read_bytes()
-    head, end, body = data.partition(b"end_header")
+    head, marker, body = data.partition(b"end_header")
     body = body[1:] if body[:1] == b"\n" else body[2:]
-    if not data.startswith(b"ply") or not end:
+    if not data.startswith(b"ply") or not marker:
         raise BadInput(f"{path}: not a PLY file: no header")
     try:
-        order, elements = _header(head.decode("ascii", "replace").splitlines())
-        before = [element.name for element in elements].index("vertex")
-        skipped, vertices = elements[:before], elements[before]
+        order, elements = _parse_header(head.decode("ascii", "replace").splitlines())
+        index = [element.name for element in elements].index("vertex")
+        skipped, vertices = elements[:index], elements[index]
         types = vertices.row(order)
         if order == ORDERS["ascii"]:
-            first = sum(element.count for element in skipped)
-            lines = body.decode("ascii").split("\n")[first : first + vertices.count]
+            start = sum(element.count for element in skipped)
+            lines = body.decode("ascii").split("\n")[start : start + vertices.count]
             rows = np.array([tuple(line.split()) for line in lines], dtype=types)
         else:
-            ahead = sum(element.row(order).itemsize * element.count for element in skipped)
-            rows = np.frombuffer(body, types, vertices.count, ahead)
+            offset = sum(element.row(order).itemsize * element.count for element in skipped)
+            rows = np.frombuffer(body, types, vertices.count, offset)
         if len(rows) < vertices.count:
             raise BadInput(f"it ends after {len(rows)} of {vertices.count} points")
         return np.stack([rows[axis].astype(float) for axis in "xyz"], axis=1)
@@ -115,7 +115,7 @@ def read_points(path: Path) -> np.ndarray:
         raise BadInput(f"{path}: a damaged PLY file: {foreign(error)}") from None
 
 
-def _header(lines: list[str]) -> tuple[str, list[Element]]:
+def _parse_header(lines: list[str]) -> tuple[str, list[Element]]:
     """Return byte order and elements of a PLY header. Raises errors of any type for a damaged header."""
     order, elements = "", []
     for line in lines:

@@ -56,31 +56,31 @@ class Feet:
 def feet(axes: tuple[np.ndarray, np.ndarray], displacement: Field, cloud: np.ndarray) -> Feet:
     """Return the feet of a cloud (n, 3) [m] on the deformed surface."""
     lengths = np.array([axes[0][-1], axes[1][-1]])
-    starts = plan_points(plan_grid((lengths[0], lengths[1]), (65, 65)))
-    _, nearest = KDTree(_place(starts, displacement)).query(cloud)
-    plan = starts[nearest]
+    candidates = plan_points(plan_grid((lengths[0], lengths[1]), (65, 65)))
+    _, nearest = KDTree(_evaluate_points(candidates, displacement)).query(cloud)
+    plan = candidates[nearest]
     for _ in range(ITERATIONS):
-        gap = cloud - _place(plan, displacement)
-        tangents = _tangents(plan, displacement)  # (n, 3, 2)
+        offsets = cloud - _evaluate_points(plan, displacement)
+        tangents = _evaluate_tangents(plan, displacement)  # (n, 3, 2)
         metric = tangents.swapaxes(1, 2) @ tangents
-        step = np.linalg.solve(metric, tangents.swapaxes(1, 2) @ gap[:, :, None])[:, :, 0]
-        following = np.clip(plan + step, 0.0, lengths)
-        moved = np.abs(following - plan).max()
-        plan = following
-        if moved < CLOSE * lengths.max():
+        step = np.linalg.solve(metric, tangents.swapaxes(1, 2) @ offsets[:, :, None])[:, :, 0]
+        updated = np.clip(plan + step, 0.0, lengths)
+        change = np.abs(updated - plan).max()
+        plan = updated
+        if change < CLOSE * lengths.max():
             break
-    tangents = _tangents(plan, displacement)
+    tangents = _evaluate_tangents(plan, displacement)
     normals = np.cross(tangents[:, :, 0], tangents[:, :, 1])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    distances = np.einsum("nc,nc->n", normals, cloud - _place(plan, displacement))
+    distances = np.einsum("nc,nc->n", normals, cloud - _evaluate_points(plan, displacement))
     return Feet(plan, normals, distances)
 
 
-def _place(plan: np.ndarray, displacement: Field) -> np.ndarray:
+def _evaluate_points(plan: np.ndarray, displacement: Field) -> np.ndarray:
     return np.column_stack([plan, np.zeros(len(plan))]) + displacement.at(plan)
 
 
-def _tangents(plan: np.ndarray, displacement: Field) -> np.ndarray:
+def _evaluate_tangents(plan: np.ndarray, displacement: Field) -> np.ndarray:
     flat = np.eye(3)[:, :2]
-    moved = np.stack([displacement.at(plan, dx=1), displacement.at(plan, dy=1)], axis=-1)
-    return np.asarray(flat + moved)
+    derivatives = np.stack([displacement.at(plan, dx=1), displacement.at(plan, dy=1)], axis=-1)
+    return np.asarray(flat + derivatives)

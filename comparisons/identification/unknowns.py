@@ -88,27 +88,27 @@ def unknown(scene: Scene, name: str) -> Unknown:
     0."""
     name = SYMBOLS.get(name, name)
     try:
-        found = parameter(scene, name)
+        given = parameter(scene, name)
         if name.startswith("tilt_"):
-            put(scene, name, found.value or LARGEST_TILT)
+            put(scene, name, given.value or LARGEST_TILT)
     except SceneError as error:
         reason = "supports and actuators allow no tilt there"
         raise BadInput(f"unknown = '{name}': {reason}: {error}") from None
     except BadInput as error:
         raise BadInput(f"unknown = {error}") from None
-    if found.low < 0.0:
+    if given.low < 0.0:
         step = 1.0 / max(scene.sheet.lengths) if name.startswith("curvature_") else 1.0
-        return Unknown(name, found.unit, found.value, found.low, found.high, step)
-    if found.value == 0.0 and name in DAMPING:
-        return Unknown(name, found.unit, _first_damping(scene, name), found.low, found.high, given=False)
-    if found.value == 0.0:
+        return Unknown(name, given.unit, given.value, given.low, given.high, step)
+    if given.value == 0.0 and name in DAMPING:
+        return Unknown(name, given.unit, _pick_damping(scene, name), given.low, given.high, given=False)
+    if given.value == 0.0:
         raise BadInput(
             f"unknown = '{name}': scene '{scene.name}' has it at 0; give a first guess above 0 there"
         )
-    return Unknown(name, found.unit, found.value, found.low, found.high)
+    return Unknown(name, given.unit, given.value, given.low, given.high)
 
 
-def _first_damping(scene: Scene, name: str) -> float:
+def _pick_damping(scene: Scene, name: str) -> float:
     """Return a damping that is FIRST_RATIO of critical in the flat sheet's lowest mode: ζ = c ω/2 of a
     damping time c, ζ = c/2ω of a damping rate."""
     import lumped

@@ -81,7 +81,7 @@ class Panel:
         own = (
             {OWN: {"said": "the scene's own [springs], on their grid", "takes": []}} if scene.springs else {}
         )
-        self.calibrations = own | {  # those that take no fit, the usual one first
+        self.calibrations = own | {  # methods without a fit, the usual one first
             name: {"said": method.summary, "takes": sorted(method.takes)}
             for name in (CALIBRATION, *CALIBRATIONS)
             for method in [CALIBRATIONS[name]]

@@ -51,8 +51,7 @@ def displaced(component: str | None = None) -> dict[str, Any]:
 
 
 def field(name: str, label: str, values: np.ndarray, unit: str = "", scale: float = 1.0) -> dict[str, Any]:
-    """Return a field of values (n,), shown times `scale` in `unit`; coloured about zero if some are below
-    it."""
+    """Return a field of values (n,), shown times `scale` in `unit`; coloured about zero if one is below."""
     kind = "signed" if np.nanmin(values, initial=0.0) < 0.0 else "magnitude"
     shown = {"name": name, "label": label, "unit": unit, "scale": scale, "kind": kind}
     return {**shown, "values": packed(values)}

@@ -86,13 +86,9 @@ def _difference(
     name: str, mesh: FieldMesh, vector: np.ndarray, of: str, scene: Scene | None
 ) -> tuple[Options, Options]:
     """Return the reference's sheet, coloured by how far a model is from it."""
-    fields = [
-        {
-            **field("difference", "Distance from the reference", np.linalg.norm(vector, axis=1), "mm", 1e3),
-            "kind": "difference",
-        },
-        {**field("offz", "Difference in uz", vector[:, 2], "mm", 1e3), "kind": "signed"},
-    ]
+    size = np.linalg.norm(vector, axis=1)
+    distance = field("difference", "Distance from the reference", size, "mm", 1e3) | {"kind": "difference"}
+    fields = [distance, field("offz", "Difference in uz", vector[:, 2], "mm", 1e3) | {"kind": "signed"}]
     sheet = viewer_sheet(name, mesh, f"{of} − reference", fields, scene)
     sheet["fields"] = [*fields, displaced()]
     return sheet, {"name": name, "label": f"Difference: {of}", "sheets": [name], "field": "difference"}

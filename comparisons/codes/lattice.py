@@ -132,18 +132,18 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
     """Return the README, in Markdown; others: names of files beside it for one code."""
     nx, ny, layers = calibration.grid
     sheet = scene.sheet
-    own = [f"{name}: {text}" for name, text in in_words(scene) if name.split()[0] in OWN]
+    properties = [f"{name}: {text}" for name, text in in_words(scene) if name.split()[0] in OWN]
     missing = MISSING if len(lattice.mass) < nx * ny * layers else ""
-    about = (
+    summary = (
         f"{nx} × {ny} × {layers} masses of a sheet of {sheet.length_x:g} × {sheet.length_y:g} × "
         f"{sheet.thickness:g} m, springs by the calibration {calibration.method}; "
-        f"{markdown('; '.join(own))}. {missing}Written by sheetbench {version()}."
+        f"{markdown('; '.join(properties))}. {missing}Written by sheetbench {version()}."
     )
     notes = "".join(f"- Not in here: {markdown(note)}\n" for note in lattice.notes)
     notes += "".join(f"\nFor one code: `{name}`.\n" for name in others) + CONTACT * bool(scene.obstacles)
     return PAGE.format(
         title=f"The lattice of {markdown(scene.name)}",
-        about=about,
+        about=summary,
         states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
         rate=lattice.damping_rate,
         steps=lattice.steps.advised,
@@ -185,19 +185,19 @@ def lattice_files(
     if code in (SOFA, "cpp", "matlab"):
         require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
-    own = {name: script(name) for reader, name in READERS.items() if reader == code}
+    added = {name: script(name) for reader, name in READERS.items() if reader == code}
     if code == SOFA:
-        own = {"sofa.scn": to_sofa(lattice, scene)}
-    differing = {"natural.csv": natural(lattice)} if scene.natural_by else {}
+        added = {"sofa.scn": to_sofa(lattice, scene)}
+    extra = {"natural.csv": natural(lattice)} if scene.natural_by else {}
     if scene.obstacles:
-        differing |= contacts(lattice, scene)
-    texts = {**tables(lattice), **differing, "README.md": page(lattice, scene, calibration, own), **own}
+        extra |= contacts(lattice, scene)
+    texts = {**tables(lattice), **extra, "README.md": page(lattice, scene, calibration, added), **added}
     values = arrays(lattice)
-    found: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}
-    found["motion.json"] = partial(write_text, text=to_json(lattice.steps.as_dict()))
-    found["lattice.npz"] = partial(write_npz, values=values)
-    found["lattice.mat"] = partial(write_mat, values=values)
-    return found, list(lattice.notes)
+    files: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}
+    files["motion.json"] = partial(write_text, text=to_json(lattice.steps.as_dict()))
+    files["lattice.npz"] = partial(write_npz, values=values)
+    files["lattice.mat"] = partial(write_mat, values=values)
+    return files, list(lattice.notes)
 
 
 def export(

@@ -62,8 +62,7 @@ class Identification(Answer):
 
     @property
     def contains(self) -> str:
-        """Sources of error in the intervals, the measurements' noise and the grid or mesh; "" without
-        intervals."""
+        """Sources of error in the intervals: noise, and the grid or mesh; "" without intervals."""
         if all(u.interval is None for u in self.unknowns.values()):
             return ""
         if all(u.interval == u.noise_interval for u in self.unknowns.values()):
@@ -89,8 +88,7 @@ class Identification(Answer):
         )
 
     def printed(self) -> tuple[Table, ...]:
-        """Return the tables of unknowns and of residuals, the SHOWN largest at most, in the order of the
-        file."""
+        """Return the tables of unknowns and of the SHOWN largest residuals, in the order of the file."""
         if len(self.residuals) <= SHOWN:
             return self.tables()
         size = np.nan_to_num(np.abs(self.residuals)).reshape(len(self.residuals), -1).max(axis=1)

@@ -51,8 +51,7 @@ class Row:
         return value
 
     def measured(self, name: str) -> float:
-        """Return the number in a column, nan where it was not measured. Raises BadInput for any other
-        text."""
+        """Return the number in a column, nan where not measured. Raises BadInput for any other text."""
         text = self.cells[name]
         if text.lower() in ("", "nan"):
             return nan

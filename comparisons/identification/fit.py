@@ -68,8 +68,7 @@ class Nearest:
 
 @dataclass(frozen=True)
 class Fit:
-    """Unknowns of a model, and the measurements to fit; offset [m]: distance of a cloud from the
-    mid-surface."""
+    """Unknowns of a model, and measurements to fit; offset [m]: distance of a cloud from the mid-surface."""
 
     measured: Measured
     unknowns: tuple[Unknown, ...]
@@ -107,8 +106,7 @@ class Fit:
         return typical_deviation(self.measured) / self.measured.scale
 
     def predict(self, x: np.ndarray) -> Prediction:
-        """Return the model's displacements at measured points (and times). Raises NotReached without an
-        equilibrium."""
+        """Return the model's displacements at measured points. Raises NotReached without an equilibrium."""
         measured, axes = self.measured, self.model.axes
         points = surface.plan_points(axes) if isinstance(measured, Surface) else measured.points
         return self.model.predict(self.unknowns, x, points, measured.time)

@@ -37,8 +37,7 @@ STEPS_PER_PERIOD = 100  # of a reference, fixed: frequencies within (2π/100)²/
 
 
 class NotReached(NoEquilibrium):
-    """No equilibrium, or a run that ended early, at an x of the unknowns; the text has the status of the
-    solution."""
+    """No equilibrium at an x of the unknowns, or a run that ended early; the text is its status."""
 
 
 @dataclass(frozen=True)
@@ -64,8 +63,7 @@ class Model:
 
 
 def lattice_model(scene: Scene, lattice: Lattice) -> Model:
-    """Return the requested lattice as a model to fit; settings left open are chosen by the scene's own
-    values."""
+    """Return the requested lattice as a model to fit, open settings chosen by the scene's own values."""
     import lumped
 
     resolved = resolve(scene, lattice, own=False)

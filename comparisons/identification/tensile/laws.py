@@ -37,8 +37,7 @@ KEYS = {"neo-hookean": ("young",), **{law: words.keys for law, words in WORDS.it
 
 
 def energy(law: str, constants: Sequence[float]) -> Energy:
-    """Return the energy of a law's constants; neo-Hooke's constant is Young's modulus of an incompressible
-    sheet."""
+    """Return the energy of a law's constants; neo-Hooke's is Young's modulus of an incompressible sheet."""
     return Energy(constants[0] / 6.0) if law == "neo-hookean" else WORDS[law].energy(*constants)
 
 

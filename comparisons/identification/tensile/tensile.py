@@ -84,8 +84,7 @@ class TensileFit(Answer):
         return "Tensile test", f"{rows} rows, stretch covered: {covered}", ""
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row per constant of every law, and a row per law with its misfit and the reason against
-        it."""
+        """Return a row per constant of every law, and a row per law with its misfit and a remark."""
         constants = (
             ConstantRow(f.law, key, unit("" if key == "limit" else "Pa"), value, *f.intervals[key])
             for f in self.fits

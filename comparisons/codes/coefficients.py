@@ -163,8 +163,8 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
 
     def answer(section: Section | None = None) -> np.ndarray:
         context().progress(f"solving shell, {cells} elements along the shorter side: no. {next(solved)} …")
-        found = fem_reference.solve(scene, model="shell", elements=cells, section=section)
-        return found.require_stable().displacement(points)
+        solution = fem_reference.solve(scene, model="shell", elements=cells, section=section)
+        return solution.require_stable().displacement(points)
 
     exact = answer()
 

@@ -210,17 +210,17 @@ def _solve_smoothed(slopes: np.ndarray, data: np.ndarray, roughness: np.ndarray)
     normal, right_hand_side = slopes.T @ slopes, slopes.T @ data
     scale = np.trace(normal) / np.trace(roughness)
 
-    def found(exponent: float) -> np.ndarray:
+    def solve_with(exponent: float) -> np.ndarray:
         return np.asarray(np.linalg.solve(normal + scale * 10.0**exponent * roughness, right_hand_side))
 
     def excess(exponent: float) -> float:
-        residuals = slopes @ found(exponent) - data
+        residuals = slopes @ solve_with(exponent) - data
         return float(residuals @ residuals) / len(data) - 1.0
 
     low, high = SMOOTHING
     at_low, at_high = excess(low), excess(high)
     best = low if at_low > 0.0 else high if at_high < 0.0 else float(brentq(excess, low, high, xtol=1e-3))
-    return found(best), float(scale * 10.0**best)
+    return solve_with(best), float(scale * 10.0**best)
 
 
 def compose(answer: FieldIdentification, style: FigureStyle = PLAIN) -> Figure:

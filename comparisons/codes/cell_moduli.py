@@ -1,5 +1,5 @@
-"""What a cell is as a sheet: coefficients, moduli beside the sheet's, the error that stays;
-and the parameters of codes with such cells.
+"""Moduli of a cell beside a sheet's, the error that remains on the finest mesh, and parameters of codes for
+meshes of the cell.
 """
 
 from __future__ import annotations
@@ -76,9 +76,17 @@ UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 SPACINGS, MOST = 8, 1e4  # cells along the shorter side, unless a spacing is given; at most
 MISSED = 0.01  # of the sheet's modulus 11
 COEFFICIENTS: tuple[Any, ...] = ("coefficient", "unit", NUMBER("#.6g", "value"))
-MODULI = (
-    *("modulus", "unit", NUMBER("#.6g", "sheet"), NUMBER("#.6g", "cell"), PERCENT("z.2f", "difference")),
-)
+
+
+@dataclass(frozen=True)
+class ModulusRow:
+    """A modulus of the sheet and of the cell, and their difference over the sheet's 11."""
+
+    modulus: str
+    unit: str
+    sheet: Annotated[float, NUMBER("#.6g")]
+    cell: Annotated[float, NUMBER("#.6g")]
+    difference: Annotated[float, PERCENT("z.2f")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -86,8 +94,7 @@ class CellModuli(CellInScene):
     """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
-    nearest to the sheet's, and the error that they leave, where that is another.
-    """
+    nearest to the sheet's, and the error that they leave, where that is another."""
 
     moduli: Moduli
     nearest: tuple[dict[str, float], float] | None = None
@@ -95,22 +102,22 @@ class CellModuli(CellInScene):
     file_name = "cell"
 
     @property
-    def rows(self) -> list[tuple[str, float, float, float]]:
-        """The moduli by name, of the sheet and of the cell, and their difference over the sheet's 11."""
-        own = section_of(self.scene.material, self.scene.sheet.thickness)
-        target = Moduli(own.membrane, 0.0 * own.membrane, own.bending, own.shear).named()
+    def rows(self) -> list[ModulusRow]:
+        """The moduli of the sheet and of the cell."""
+        section = section_of(self.scene.material, self.scene.sheet.thickness)
+        target = Moduli(section.membrane, 0.0 * section.membrane, section.bending, section.shear).named()
         scales = {"A": target["A11"], "D": target["D11"], "S": target["Sx"]}
         return [
-            (name, target[name], got, (got - target[name]) / scales[name[0]])
-            for name, got in self.moduli.named().items()
+            ModulusRow(name, UNITS[name[0]], target[name], value, (value - target[name]) / scales[name[0]])
+            for name, value in self.moduli.named().items()
         ]
 
     def heading(self) -> tuple[str, str, str]:
         size = f"nodes {1e3 * (self.cell.area / len(self.cell.nodes)) ** 0.5:.4g} mm apart"
         sheet = sheet_in_words(self.scene.sheet, self.scene.material)
-        return f"cell {self.cell.name}", size, " ".join(filter(None, (f"{sheet}.", self._verdict())))
+        return f"cell {self.cell.name}", size, " ".join(filter(None, (f"{sheet}.", self._describe_error())))
 
-    def _verdict(self) -> str:
+    def _describe_error(self) -> str:
         """How far off the finest mesh is in the scene, in a sentence."""
         if self.limit_error is None:
             return ""
@@ -128,7 +135,6 @@ class CellModuli(CellInScene):
         if self.nearest is not None:
             found, columns = [*found, self.nearest[0]], (*columns, NUMBER("#.6g", "nearest to the moduli"))
         coefficients = [(name, units[name], *(one[name] for one in found)) for name in self.coefficients]
-        moduli = [(name, UNITS[name[0]], *numbers) for name, *numbers in self.rows]
         codes = [
             one
             for code in CODES.values()
@@ -139,16 +145,15 @@ class CellModuli(CellInScene):
         return (
             Table.listed("Coefficients", columns, coefficients, "coefficients"),
             *([Table.of(Parameter, codes, caption, "codes", grouped=True)] if codes else []),
-            Table.listed("Moduli of the sheet and of the cell", MODULI, moduli, "moduli"),
+            Table.of(ModulusRow, self.rows, "Moduli of the sheet and of the cell", "moduli"),
         )
 
     def result(self) -> str:
-        return self._verdict() or super().result()
+        return self._describe_error() or super().result()
 
     def notes(self) -> list[str]:
-        missed = [
-            f"{name} by {number(100 * miss, '+.0f')} %" for name, *_, miss in self.rows if abs(miss) > MISSED
-        ]
+        rows = (row for row in self.rows if abs(row.difference) > MISSED)
+        missed = [f"{row.modulus} by {number(100 * row.difference, '+.0f')} %" for row in rows]
         notes = ["difference: over the sheet's A11, D11 or S."]
         if missed:
             notes.append(f"These coefficients miss {', '.join(missed)}.")
@@ -166,7 +171,10 @@ class CellModuli(CellInScene):
             "area": self.cell.area,
             "coefficients": self.coefficients,
             "units": self.cell.units(),
-            "moduli": [dict(zip(("name", "asked", "got", "miss"), row, strict=True)) for row in self.rows],
+            "moduli": [
+                {"name": row.modulus, "asked": row.sheet, "got": row.cell, "miss": row.difference}
+                for row in self.rows
+            ],
             "limit_error": self.limit_error,
             "nearest": nearest,
             "message": self.missing,
@@ -181,16 +189,15 @@ def homogenise(
     hinge: str | None = None,
     coefficients: Mapping[str, float] | None = None,
 ) -> CellModuli:
-    """Return a cell's coefficients for a scene's sheet, and the moduli that they give: those nearest to its
-    moduli, and of hinges the one that is best in the scene.
+    """Return a cell's coefficients for a scene's sheet, and the moduli that they give: the nearest to the
+    sheet's, and of hinges the best in the scene.
 
-    cell: a name or a file, whose nodes are `spacing` [m] apart, an eighth of the shorter side unless given,
-    with the energy of a `hinge`; or a `Cell`. coefficients: taken in place of those found. The answer has no
-    error, and a note, for a scene whose sheet has no stable equilibrium. Raises BadInput for a coefficient
-    that the cell does not have, a scene without an answer at rest, and spacing and hinge of a cell that has
-    its own.
-    """
-    scene, given = scene_of(scene), dict(coefficients or {})
+    cell: a `Cell`, or a name or a file of a cell with nodes `spacing` [m] from each other, an eighth of the
+    shorter side by default, and with the energy of a `hinge`. coefficients: taken in place of the computed
+    ones. The answer has no error, and a note, for a scene whose sheet has no stable equilibrium. Raises
+    BadInput for a coefficient that the cell does not have, a scene without an answer at rest, and spacing and
+    hinge of a cell that has its own."""
+    scene, fixed = scene_of(scene), dict(coefficients or {})
     require_plain(scene, "--cell")
     if isinstance(cell, str):
         shorter = min(scene.sheet.lengths)
@@ -203,21 +210,21 @@ def homogenise(
         cell = cell_of(cell, spacing, scene.sheet.thickness, hinge)
     else:
         require_effect("on a Cell, which has its own", {"spacing": spacing, "hinge": hinge})
-    if unknown := set(given) - set(cell.units()):
+    if unknown := set(fixed) - set(cell.units()):
         raise BadInput(f"coefficient {', '.join(sorted(unknown))}: {cell.name} has {', '.join(cell.units())}")
-    chosen = nearest(cell, scene.material, scene.sheet.thickness) | given
-    if given and not moduli_of(cell, chosen).stable:
-        own = ", ".join(f"{name}={value:g}" for name, value in given.items())
-        raise BadInput(f"--coefficient {own}: a sheet of these cells has a negative stiffness")
-    off, others, missing = None, None, ""
+    values = nearest(cell, scene.material, scene.sheet.thickness) | fixed
+    if fixed and not moduli_of(cell, values).stable:
+        text = ", ".join(f"{name}={value:g}" for name, value in fixed.items())
+        raise BadInput(f"--coefficient {text}: a sheet of these cells has a negative stiffness")
+    error_left, nearest_values, missing = None, None, ""
     try:
-        off = limit_error(scene, moduli_of(cell, chosen))
-        if not given and (best := best_hinge(scene, cell, chosen)):
-            others, chosen = (chosen, off), chosen | {"hinge": best}
-            off = limit_error(scene, moduli_of(cell, chosen))
+        error_left = limit_error(scene, moduli_of(cell, values))
+        if not fixed and (best := best_hinge(scene, cell, values)):
+            nearest_values, values = (values, error_left), values | {"hinge": best}
+            error_left = limit_error(scene, moduli_of(cell, values))
     except NoEquilibrium as error:
-        off, others, missing = None, None, str(error)
-    return CellModuli(scene, cell, chosen, off, missing, moduli_of(cell, chosen), others)
+        error_left, nearest_values, missing = None, None, str(error)
+    return CellModuli(scene, cell, values, error_left, missing, moduli_of(cell, values), nearest_values)
 
 
 def given_coefficients(entries: Sequence[str]) -> dict[str, float]:

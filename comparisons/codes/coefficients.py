@@ -10,8 +10,8 @@ and by displacements that repeat from cell to cell, for which the energy is leas
 nor turn it through its thickness. The field in another cell differs by a rigid motion, so that all cells have
 one energy.
 
-Codes without such laws have sheets of springs of one stiffness: along the sides of triangles, or of
-tetrahedra in one layer, whose height is then free to be chosen. Squares are cut into five tetrahedra each,
+Codes without laws of membranes have sheets of springs of one stiffness: along the sides of triangles, or of
+tetrahedra in one layer, whose height is a second coefficient. Squares are cut into five tetrahedra each,
 neighbours mirrored, so that they share their faces' diagonals.
 """
 
@@ -68,18 +68,17 @@ class Moduli:
 def moduli_of(cell: Cell, coefficients: Mapping[str, float]) -> Moduli:
     """Moduli of a sheet of this cell.
 
-    coefficients: by the names of `cell.units()`, in those units. Raises KeyError where one is missing.
-    """
+    coefficients: by the names of `cell.units()`, in those units. Raises KeyError where one is missing."""
     count = 3 * len(cell.nodes)
     stiffness, coupled, imposed = np.zeros((count, count)), np.zeros((count, 8)), np.zeros((8, 8))
     for element in cell.elements():
         matrix = sum(coefficients[name] * unit for name, unit in element.stiffness.items())
-        field = np.vstack([_field(point) for point in cell.at(element.places)])
+        field = np.vstack([_evaluate_field(point) for point in cell.at(element.places)])
         rows = np.concatenate([3 * node + np.arange(3) for node, _, _ in element.places])
         np.add.at(stiffness, (rows[:, None], rows), matrix)
         np.add.at(coupled, rows, matrix @ field)
         imposed += field.T @ matrix @ field
-    free = null_space(_rigid(cell.nodes))
+    free = null_space(_constrain_motion(cell.nodes))
     relaxed = np.linalg.pinv(free.T @ stiffness @ free, rcond=1e-12, hermitian=True)
     form = (imposed - coupled.T @ free @ relaxed @ free.T @ coupled) / cell.area
     scales = np.sqrt(np.maximum(np.diag(form), 0.0))
@@ -88,7 +87,7 @@ def moduli_of(cell: Cell, coefficients: Mapping[str, float]) -> Moduli:
     return Moduli(form[:3, :3], form[:3, 3:6], form[3:6, 3:6], form[6:, 6:] if thick else None)
 
 
-def _field(point: np.ndarray) -> np.ndarray:
+def _evaluate_field(point: np.ndarray) -> np.ndarray:
     """Displacement (3,) of a point per unit of each strain, curvature and transverse shear (3, 8)."""
     x, y, z = point
     plane = np.array([[x, 0.0, y / 2.0], [0.0, y, x / 2.0]])
@@ -98,7 +97,7 @@ def _field(point: np.ndarray) -> np.ndarray:
     return field
 
 
-def _rigid(nodes: np.ndarray) -> np.ndarray:
+def _constrain_motion(nodes: np.ndarray) -> np.ndarray:
     """Rows: mean displacements and, of a cell that has thickness, mean turns of its normal."""
     heights = nodes[:, 2] - nodes[:, 2].mean()
     rows = [np.kron(np.ones(len(nodes)), axis) for axis in np.eye(3)]
@@ -121,16 +120,15 @@ def nearest(
 
     Triangles have the membrane's λh = E ν h/(1 − ν²) and μh = E h/2(1 + ν), bricks Lamé's constants. The
     others are found by least squares over A and D, each over its 11, in a norm that no turn of the axes
-    changes (Mandel's).
-    """
+    changes (Mandel's)."""
     nu = material.poisson
     stretching = material.young * thickness / (1.0 - nu**2)
     exact = {"lambda_h": nu * stretching, "mu_h": 0.5 * (1.0 - nu) * stretching}
     mu = 0.5 * material.young / (1.0 + nu)
     exact |= {"lambda": 2.0 * mu * nu / (1.0 - 2.0 * nu), "mu": mu, **(fixed or {})}
     units = cell.units()
-    known = {name: value for name, value in exact.items() if name in units}
-    names = [name for name in units if name not in known]
+    fixed_values = {name: value for name, value in exact.items() if name in units}
+    names = [name for name in units if name not in fixed_values]
     target = section_of(material, thickness)
     # a value of the right size for each: of springs the membrane's, of hinges the plate's by its length
     sizes = np.array([stretching if units[n] == "N/m" else target.bending[0, 0] for n in names])
@@ -138,41 +136,40 @@ def nearest(
         sizes[names.index("hinge")] /= cell.area**0.5
 
     def weighted(values: np.ndarray) -> np.ndarray:
-        got = moduli_of(cell, known | dict(zip(names, values * sizes, strict=True)))
-        pairs = ((got.membrane, target.membrane), (got.bending, target.bending))
+        moduli = moduli_of(cell, fixed_values | dict(zip(names, values * sizes, strict=True)))
+        pairs = ((moduli.membrane, target.membrane), (moduli.bending, target.bending))
         return np.concatenate([(TURNED * (a - b) / b[0, 0]).ravel() for a, b in pairs])
 
     if not names:
-        return known
-    found = least_squares(weighted, np.ones(len(names)), bounds=(0.0, np.inf), xtol=1e-14, ftol=1e-14)
-    return known | {n: float(v * s) for n, v, s in zip(names, found.x, sizes, strict=True)}
+        return fixed_values
+    solution = least_squares(weighted, np.ones(len(names)), bounds=(0.0, np.inf), xtol=1e-14, ftol=1e-14)
+    return fixed_values | {n: float(v * s) for n, v, s in zip(names, solution.x, sizes, strict=True)}
 
 
 def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
-    """The error in a scene of a mesh of this cell, however fine: the one of a shell with the cell's moduli.
+    """Return the error in a scene of the finest mesh of a cell: the error of a shell with the cell's moduli.
 
-    elements: along the side of a square, as many in all on others. The shell takes large rotations, like
-    these meshes. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, or
-    one of these moduli, has no stable equilibrium in the scene.
-    """
+    elements: along the side of a square, as many in all on others. The shell takes large rotations, as the
+    meshes do. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, with
+    its own moduli or the cell's, has no stable equilibrium in the scene."""
     return limit_errors(scene, elements)(moduli)
 
 
 def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
     """`limit_error` of any moduli in a scene, whose own answer is found once."""
     lengths = scene.sheet.lengths
-    across = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
+    cells = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
     points, solved = scene.probe_points(), count(1)
 
     def answer(section: Section | None = None) -> np.ndarray:
-        context().progress(f"solving shell, {across} elements along the shorter side: no. {next(solved)} …")
-        found = fem_reference.solve(scene, model="shell", elements=across, section=section)
-        return found.require_stable().displacement(points)
+        context().progress(f"solving shell, {cells} elements along the shorter side: no. {next(solved)} …")
+        solution = fem_reference.solve(scene, model="shell", elements=cells, section=section)
+        return solution.require_stable().displacement(points)
 
-    true = answer()
+    exact = answer()
 
     def off(moduli: Moduli) -> float:
-        share = error(answer(_section(scene, moduli)), true)
+        share = error(answer(_make_section(scene, moduli)), exact)
         if share is None:
             raise BadInput("the probes do not move: there is no error to tell")
         return share
@@ -182,7 +179,8 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
 
 def least_error(scene: Scene, moduli: Callable[[float], Moduli], low: float, high: float) -> float:
     """Return the number between low and high whose moduli leave the least error in the limit in this scene.
-    Raises NoEquilibrium where the sheet, or every one of these moduli, is unstable there."""
+    Raises NoEquilibrium where the sheet is unstable with its own moduli, or with the moduli of every number
+    tried."""
     error_of = limit_errors(scene, COARSE)
 
     def off(logarithm: float) -> float:
@@ -192,18 +190,18 @@ def least_error(scene: Scene, moduli: Callable[[float], Moduli], low: float, hig
             return LOST
 
     bounds = (float(np.log(low)), float(np.log(high)))
-    found = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
-    if found.fun == LOST:
+    minimum = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
+    if minimum.fun == LOST:
         raise NoEquilibrium("no coefficients of this mesh have a stable equilibrium in this scene")
-    return float(np.exp(found.x))
+    return float(np.exp(minimum.x))
 
 
-def _section(scene: Scene, moduli: Moduli) -> Section:
-    own = section_of(scene.material, scene.sheet.thickness)
+def _make_section(scene: Scene, moduli: Moduli) -> Section:
+    material_section = section_of(scene.material, scene.sheet.thickness)
     size = (np.abs(moduli.membrane).max() * np.abs(moduli.bending).max()) ** 0.5
     if np.abs(moduli.coupling).max() > 1e-9 * size:
         raise BadInput("the cell couples bending and stretching: no shell here has such a section")
-    shear = STIFF * own.shear if moduli.shear is None else moduli.shear
+    shear = STIFF * material_section.shear if moduli.shear is None else moduli.shear
     return Section(moduli.membrane, moduli.bending, shear)
 
 
@@ -239,16 +237,16 @@ def tetrahedral_cell(spacing: float, height: float) -> Cell:
     places = [[(i % 2 * 4 + j % 2 * 2 + layer, i // 2, j // 2) for i, j, layer in cell] for cell in cells]
     nodes = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (-0.5, 0.5)])
     periods = 2.0 * spacing * np.eye(2)
-    return Cell("tetrahedra", periods, nodes * [spacing, spacing, height], springs=_along_sides(places))
+    return Cell("tetrahedra", periods, nodes * [spacing, spacing, height], springs=_join_corners(places))
 
 
 def triangular_cell(name: str, spacing: float) -> Cell:
     """A mesh of triangles without a membrane of its own: springs "k" along its sides, hinges by angle."""
     cell = cell_of(name, spacing, hinge="angle")
-    return replace(cell, springs=_along_sides(cell.triangles))
+    return replace(cell, springs=_join_corners(cell.triangles))
 
 
-def _along_sides(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Place, str], ...]:
+def _join_corners(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Place, str], ...]:
     """Springs "k" between every two corners of elements, each once."""
     sides: dict[tuple[Place, Place], None] = {}
     for element in elements:
@@ -262,13 +260,12 @@ def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[st
     """k [N/m] and the layers' distance [m] of tetrahedra.
 
     k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or the best fit to
-    the scene. Raises NoEquilibrium where the scene's sheet has no stable one.
-    """
-    own = section_of(scene.material, scene.sheet.thickness)
+    the scene. Raises NoEquilibrium where the scene's sheet has no stable one."""
+    section = section_of(scene.material, scene.sheet.thickness)
 
     def at(height: float) -> tuple[float, Moduli]:
         unit = moduli_of(tetrahedral_cell(spacing, height), {"k": 1.0})
-        k = _share(unit.membrane, own.membrane)
+        k = _fit_factor(unit.membrane, section.membrane)
         assert unit.shear is not None
         return k, Moduli(k * unit.membrane, k * unit.coupling, k * unit.bending, k * unit.shear)
 
@@ -278,13 +275,13 @@ def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[st
     else:
 
         def miss(height: float) -> float:
-            return _share(at(height)[1].bending, own.bending) - 1.0
+            return _fit_factor(at(height)[1].bending, section.bending) - 1.0
 
         height = float(brentq(miss, low, high))
     return {"k": at(height)[0], "layers": height}
 
 
-def _share(form: np.ndarray, target: np.ndarray) -> float:
+def _fit_factor(form: np.ndarray, target: np.ndarray) -> float:
     """The factor that brings a form nearest to one that is requested, in Mandel's norm."""
     weighted = TURNED**2 * form
     return float(np.sum(weighted * target) / np.sum(weighted * form))

@@ -203,7 +203,7 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
         rest=words(lattice.positions),
         edges=words(links.masses),
         masses=words(lattice.mass),
-        supports="".join(_fixed(held, axes) for axes in np.unique(held, axis=0)[::-1] if axes.any()),
+        supports="".join(_format_fixed(held, axes) for axes in np.unique(held, axis=0)[::-1] if axes.any()),
         springs=" ".join(f"{a} {b} {k!r} {c!r} {length!r}" for (a, b), k, c, length in springs),
         loads=f'    <ConstantForceField template="Vec3d" indices="{words(loaded)}" '
         f'forces="{words(forces[loaded])}" />\n'
@@ -212,7 +212,7 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
     )
 
 
-def _fixed(held: np.ndarray, axes: np.ndarray) -> str:
+def _format_fixed(held: np.ndarray, axes: np.ndarray) -> str:
     """A constraint for all points that are held along equal axes."""
     indices = words(np.flatnonzero((held == axes).all(axis=1)))
     if axes.all():

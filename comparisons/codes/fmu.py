@@ -74,13 +74,13 @@ def description(scene: Scene, of: Program) -> str:
         VARIABLE.format(name=quoteattr(name), number=number, kind=kind, unit=unit).replace(' unit=""', "")
         for number, (name, unit, kind) in enumerate(rows)
     ]
-    known = [f'<{kind} valueReference="{n}"/>' for kind in ("Output", "InitialUnknown") for n in numbers]
+    entries = [f'<{kind} valueReference="{n}"/>' for kind in ("Output", "InitialUnknown") for n in numbers]
     return MODEL.format(
         name=quoteattr(scene.name),
         token=uuid.uuid5(uuid.NAMESPACE_OID, of.texts["sheet.c"]),
         units="".join(f'<Unit name="{unit}"><BaseUnit {base}/></Unit>' for unit, base in UNITS.items()),
         variables="\n".join(variables),
-        structure="".join(known),
+        structure="".join(entries),
     )
 
 

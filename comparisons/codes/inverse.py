@@ -79,7 +79,7 @@ class SheetOfCode(Answer):
 
     @property
     def impossible(self) -> str:
-        """The reason why no isotropic sheet has these numbers, "" where one has."""
+        """The reason why no isotropic sheet has the coefficients, "" where one has."""
         if self.poisson > MOST_POISSON:
             return f"ν = {self.poisson:.3g} is of no isotropic material, whose ν is below 0.5"
         if self.bending is None:
@@ -93,7 +93,7 @@ class SheetOfCode(Answer):
             )
         return ""
 
-    def _known(self) -> list[tuple[str, float, str]]:
+    def _list(self) -> list[tuple[str, float, str]]:
         known = ((symbol, getattr(self, name), unit) for name, (symbol, unit) in QUANTITIES.items())
         return [one for one in known if one[1] is not None]
 
@@ -103,10 +103,10 @@ class SheetOfCode(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         columns = ("quantity", NUMBER("#.5g", "value"), "unit")
-        return (Table.listed("The sheet", columns, self._known(), "sheet"),)
+        return (Table.listed("The sheet", columns, self._list(), "sheet"),)
 
     def result(self) -> str:
-        known = ", ".join(f"{symbol} {number(value, '.4g')} {unit}" for symbol, value, unit in self._known())
+        known = ", ".join(f"{symbol} {number(value, '.4g')} {unit}" for symbol, value, unit in self._list())
         return known + (f"; no sheet: {self.impossible}" if self.impossible else "")
 
     def notes(self) -> list[str]:
@@ -129,44 +129,42 @@ def sheet_of(
 ) -> SheetOfCode:
     """Return the sheet that a code's numbers describe.
 
-    given: parameters of the code by their names; cell: the mesh, by default the usual one of the code, with
-    vertices `spacing` [m] apart; density [kg/m³]: for codes without a parameter for it. Raises BadInput for
-    unknown names, numbers that contradict each other, and a mesh without a spacing on which the bending
-    depends.
-    """
+    given: parameters of the code by their names; cell: the mesh, by default the code's usual one; spacing
+    [m]: of its vertices; density [kg/m³]: for codes without a parameter for it. Raises BadInput for unknown
+    names, numbers that contradict each other, and a mesh without a spacing on which the bending depends."""
     require_choice("--from", code, CODES)
-    row, asked = CODES[code], f"--from {code}:"
-    known = ", ".join(key.name for key in row.keys)
+    row, option = CODES[code], f"--from {code}:"
+    parameters = ", ".join(key.name for key in row.keys)
     if unknown := given.keys() - {key.name for key in row.keys}:
-        raise BadInput(f"{asked} {', '.join(sorted(unknown))}: {row.title} has {known}")
+        raise BadInput(f"{option} {', '.join(sorted(unknown))}: {row.title} has {parameters}")
     if not given:
-        raise BadInput(f"{asked} needs its numbers as NAME=VALUE,NAME=VALUE of {known}")
-    found = solved(row, given)
-    layered, springs = row.mesh == LAYERED and "layers" in found, row.elements == "springs"
+        raise BadInput(f"{option} needs its numbers as NAME=VALUE,NAME=VALUE of {parameters}")
+    values = solved(row, given)
+    layered, springs = row.mesh == LAYERED and "layers" in values, row.elements == "springs"
     mesh = LAYERED if layered else cell or (FLAT if row.mesh == LAYERED else row.mesh)
     membrane = ("k",) if springs else ("lambda_h", "mu_h")
-    if missing := [name for name in membrane if name not in found]:
-        raise BadInput(f"{asked} what is given leaves {', '.join(missing)} of the membrane open")
-    if row.hinge != "height" and {"hinge", "layers"} & found.keys() and not spacing:
-        raise BadInput(f"{asked} --spacing: how far apart are the vertices? The bending depends on it")
-    size = spacing or 1.0
+    if missing := [name for name in membrane if name not in values]:
+        raise BadInput(f"{option} what is given leaves {', '.join(missing)} of the membrane open")
+    if row.hinge != "height" and {"hinge", "layers"} & values.keys() and not spacing:
+        raise BadInput(f"{option} --spacing: how far apart are the vertices? The bending depends on it")
+    distance = spacing or 1.0
     if layered:
-        shape = tetrahedral_cell(size, found["layers"])
+        shape = tetrahedral_cell(distance, values["layers"])
     else:
-        shape = triangular_cell(mesh, size) if springs else cell_of(mesh, size, hinge=row.hinge)
-    moduli = moduli_of(shape, {name: found.get(name, 0.0) for name in shape.units()})
+        shape = triangular_cell(mesh, distance) if springs else cell_of(mesh, distance, hinge=row.hinge)
+    moduli = moduli_of(shape, {name: values.get(name, 0.0) for name in shape.units()})
     stretching, mixed = map(float, moduli.membrane[0, :2])
     bending = float(moduli.bending[0, 0]) if layered else None
-    if "hinge" in found:  # it is in proportion to the sheet's bending stiffness
-        like = Material(1e6, min(mixed / stretching, MOST_POISSON), 1e3)
-        per = nearest(shape, like, 1e-3, dict.fromkeys(membrane, 0.0))["hinge"]
-        bending = found["hinge"] * 1e6 * 1e-9 / 12.0 / (1.0 - like.poisson**2) / per
-    elif "thickness" in found and not layered and row.hinge != "height":
-        bending = stretching * found["thickness"] ** 2 / 12.0
-    areal, rho = found.get("areal"), found.get("density", density)
-    if areal is None and rho is not None and "thickness" in found:
-        areal = rho * found["thickness"]
-    return SheetOfCode(row, given, spacing, stretching, mixed / stretching, bending, areal, rho)
+    if "hinge" in values:  # it is in proportion to the sheet's bending stiffness
+        material = Material(1e6, min(mixed / stretching, MOST_POISSON), 1e3)
+        unit_hinge = nearest(shape, material, 1e-3, dict.fromkeys(membrane, 0.0))["hinge"]
+        bending = values["hinge"] * 1e6 * 1e-9 / 12.0 / (1.0 - material.poisson**2) / unit_hinge
+    elif "thickness" in values and not layered and row.hinge != "height":
+        bending = stretching * values["thickness"] ** 2 / 12.0
+    areal, mass_density = values.get("areal"), values.get("density", density)
+    if areal is None and mass_density is not None and "thickness" in values:
+        areal = mass_density * values["thickness"]
+    return SheetOfCode(row, given, spacing, stretching, mixed / stretching, bending, areal, mass_density)
 
 
 NAMES = ("lambda_h", "mu_h", "hinge", "thickness", "density", "k", "layers")
@@ -177,36 +175,35 @@ def solved(code: Code, given: Mapping[str, float]) -> dict[str, float]:
 
     Unknowns are logarithms, and artanh of λh/(λh + 2 μh); residuals are logarithms of parameters over given
     values where both are positive. If ρ h alone is known, it is "areal" [kg/m²]. Raises BadInput for numbers
-    that no coefficients have.
-    """
-    limp = {name for name in given if given[name] == 0.0 and name in BENDS}
-    keys = [key for key in code.keys if key.name in given.keys() - limp]
+    that no coefficients have."""
+    no_bending = {name for name in given if given[name] == 0.0 and name in BENDS}
+    keys = [key for key in code.keys if key.name in given.keys() - no_bending]
 
     def numbers(x: np.ndarray) -> dict[str, float]:
-        share, own = np.tanh(x[0]), np.exp(x[1:])
-        values = (2.0 * own[0] * share / (1.0 - share), *own)
+        share, exponentials = np.tanh(x[0]), np.exp(x[1:])
+        values = (2.0 * exponentials[0] * share / (1.0 - share), *exponentials)
         return dict(zip(NAMES, map(float, values), strict=True))
 
     def residuals(x: np.ndarray) -> np.ndarray:
-        of, out = numbers(x), []
+        coefficients, differences = numbers(x), []
         for key in keys:
-            value, target = key.value(of), given[key.name]
+            value, target = key.value(coefficients), given[key.name]
             relative = key.unit and value > 0.0 and target > 0.0
-            scale = abs(target) or of["lambda_h"] + 2.0 * of["mu_h"] if key.unit else 1.0
-            out.append(np.log(value / target) if relative else (value - target) / scale)
-        return np.array(out)
+            scale = abs(target) or coefficients["lambda_h"] + 2.0 * coefficients["mu_h"] if key.unit else 1.0
+            differences.append(np.log(value / target) if relative else (value - target) / scale)
+        return np.array(differences)
 
     start = np.array([0.3, *np.zeros(len(NAMES) - 1)])
-    found = least_squares(residuals, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
-    if np.abs(found.fun).max(initial=0.0) > SOLVED:
-        told = ", ".join(f"{key.name} = {given[key.name]:g}" for key in keys)
-        raise BadInput(f"--from {code.name}: {told}: no isotropic sheet has these in {code.title}")
-    _, sizes, directions = np.linalg.svd(found.jac)
+    solution = least_squares(residuals, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    if np.abs(solution.fun).max(initial=0.0) > SOLVED:
+        text = ", ".join(f"{key.name} = {given[key.name]:g}" for key in keys)
+        raise BadInput(f"--from {code.name}: {text}: no isotropic sheet has these in {code.title}")
+    _, sizes, directions = np.linalg.svd(solution.jac)
     free = directions[np.sum(sizes > UNKNOWN * sizes.max(initial=1.0)) :]
-    moves = dict(zip(NAMES, np.abs(free).max(axis=0, initial=0.0), strict=True))
-    known = {name: value for name, value in numbers(found.x).items() if moves[name] < UNKNOWN}
-    both = free[:, [NAMES.index("thickness"), NAMES.index("density")]].sum(axis=1)
-    if "density" not in known and np.abs(both).max(initial=0.0) < UNKNOWN:
-        of = numbers(found.x)
-        known["areal"] = of["thickness"] * of["density"]
-    return known | ({"hinge": 0.0} if limp else {})
+    changes = dict(zip(NAMES, np.abs(free).max(axis=0, initial=0.0), strict=True))
+    determined = {name: value for name, value in numbers(solution.x).items() if changes[name] < UNKNOWN}
+    joint_changes = free[:, [NAMES.index("thickness"), NAMES.index("density")]].sum(axis=1)
+    if "density" not in determined and np.abs(joint_changes).max(initial=0.0) < UNKNOWN:
+        coefficients = numbers(solution.x)
+        determined["areal"] = coefficients["thickness"] * coefficients["density"]
+    return determined | ({"hinge": 0.0} if no_bending else {})

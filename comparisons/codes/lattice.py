@@ -132,18 +132,18 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
     """Return the README, in Markdown; others: names of files beside it for one code."""
     nx, ny, layers = calibration.grid
     sheet = scene.sheet
-    own = [f"{name}: {text}" for name, text in in_words(scene) if name.split()[0] in OWN]
+    properties = [f"{name}: {text}" for name, text in in_words(scene) if name.split()[0] in OWN]
     missing = MISSING if len(lattice.mass) < nx * ny * layers else ""
-    about = (
+    summary = (
         f"{nx} × {ny} × {layers} masses of a sheet of {sheet.length_x:g} × {sheet.length_y:g} × "
         f"{sheet.thickness:g} m, springs by the calibration {calibration.method}; "
-        f"{markdown('; '.join(own))}. {missing}Written by sheetbench {version()}."
+        f"{markdown('; '.join(properties))}. {missing}Written by sheetbench {version()}."
     )
     notes = "".join(f"- Not in here: {markdown(note)}\n" for note in lattice.notes)
     notes += "".join(f"\nFor one code: `{name}`.\n" for name in others) + CONTACT * bool(scene.obstacles)
     return PAGE.format(
         title=f"The lattice of {markdown(scene.name)}",
-        about=about,
+        about=summary,
         states=" and ".join(f"`{state.name}` ({state.meaning})" for state in lattice.states),
         rate=lattice.damping_rate,
         steps=lattice.steps.advised,
@@ -168,13 +168,12 @@ CODES = (SOFA, *READERS, *IN_MOTION)
 def lattice_files(
     scene: Scene, calibration: Calibration, code: str | None = None, precision: str = "double"
 ) -> tuple[dict[str, Write], list[str]]:
-    """Return the files of a scene's lattice with these springs, and sentences about parts of the scene that
-    are left out.
+    """Return the files of a scene's lattice with calibrated springs, and sentences about parts of the scene
+    that are left out.
 
-    code: of `CODES`, whose file comes beside them, or that has files of its own; precision: of programs in
-    motion. Raises BadInput for lattices that files cannot hold (`lumped.describe`), and for features that the
-    code lacks.
-    """
+    code: of `CODES`, with a file of its own beside the lattice's, or with other files in their place;
+    precision: of programs in motion. Raises BadInput for lattices that files cannot hold (`lumped.describe`),
+    and for features that the code lacks."""
     import lumped
 
     if code in IN_MOTION:
@@ -186,19 +185,19 @@ def lattice_files(
     if code in (SOFA, "cpp", "matlab"):
         require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
-    own = {name: script(name) for reader, name in READERS.items() if reader == code}
+    added = {name: script(name) for reader, name in READERS.items() if reader == code}
     if code == SOFA:
-        own = {"sofa.scn": to_sofa(lattice, scene)}
-    differing = {"natural.csv": natural(lattice)} if scene.natural_by else {}
+        added = {"sofa.scn": to_sofa(lattice, scene)}
+    extra = {"natural.csv": natural(lattice)} if scene.natural_by else {}
     if scene.obstacles:
-        differing |= contacts(lattice, scene)
-    texts = {**tables(lattice), **differing, "README.md": page(lattice, scene, calibration, own), **own}
+        extra |= contacts(lattice, scene)
+    texts = {**tables(lattice), **extra, "README.md": page(lattice, scene, calibration, added), **added}
     values = arrays(lattice)
-    found: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}
-    found["motion.json"] = partial(write_text, text=to_json(lattice.steps.as_dict()))
-    found["lattice.npz"] = partial(write_npz, values=values)
-    found["lattice.mat"] = partial(write_mat, values=values)
-    return found, list(lattice.notes)
+    files: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}
+    files["motion.json"] = partial(write_text, text=to_json(lattice.steps.as_dict()))
+    files["lattice.npz"] = partial(write_npz, values=values)
+    files["lattice.mat"] = partial(write_mat, values=values)
+    return files, list(lattice.notes)
 
 
 def export(
@@ -208,11 +207,10 @@ def export(
     command: Sequence[str] = (),
     overwrite: bool = False,
 ) -> str:
-    """Write the lattice of a scene with these springs; a sentence with the folder and its files.
+    """Write the lattice of a scene with calibrated springs; return a sentence with the folder and its files.
 
     command: for the manifest. Raises BadInput for a folder that cannot be had or holds another scene's files,
-    unless `overwrite`, and for lattices that files cannot hold.
-    """
+    unless `overwrite`, and for lattices that files cannot hold."""
     files, missing = lattice_files(scene, calibration)
     target = Folder(
         folder,

@@ -36,15 +36,7 @@ from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
 from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
-from sheetbench.scenes import (
-    EDGES,
-    AnyScene,
-    Scene,
-    SceneError,
-    require_static,
-    require_uniform,
-    scene_of,
-)
+from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.words import sheet_in_words
 from sheetbench.scenes.objects.supports import Hinged, Point
@@ -106,12 +98,12 @@ class CodeSetup(CellInScene):
         return ", ".join(f"{key.name} {number(key.value, '.4g')} {key.unit}" for key in self.keys) + off
 
     def notes(self) -> list[str]:
-        chosen = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
+        basis = "have the least error in this scene" if self.best else "come nearest to the sheet's moduli"
         notes = list[str]()
-        if why := self._refused():
-            notes.append(f"No files for {self.code.title}, the numbers alone: {why}.")
-        elif coarse := self._too_coarse():
-            notes.append(coarse)
+        if reason := self._refuse_files():
+            notes.append(f"No files for {self.code.title}, the numbers alone: {reason}.")
+        elif warning := self._warn_of_depth():
+            notes.append(warning)
         if any(isinstance(support, Point) for support in self.scene.supports):
             notes.append(
                 "A sheet drawn to a single point gives way there without limit as any mesh gets finer: "
@@ -119,9 +111,9 @@ class CodeSetup(CellInScene):
             )
         if self.code.mesh == LAYERED and any(isinstance(s, Hinged | Point) for s in self.scene.supports):
             notes.append("Both layers of springs are held: hinged edges and points cannot turn there.")
-        if left := undamped(self.code, self.scene.material):
-            notes.append(f"The scene's damping is left out: {left}.")
-        notes.append(f"Coefficients of hinges and springs {chosen}.")
+        if omitted := undamped(self.code, self.scene.material):
+            notes.append(f"The scene's damping is left out: {omitted}.")
+        notes.append(f"Coefficients of hinges and springs {basis}.")
         if self.limit_error is not None:
             notes.append(
                 "Error of an infinitely fine mesh with them in this scene: "
@@ -137,7 +129,7 @@ class CodeSetup(CellInScene):
         notes.append(f"{self.code.title} ({self.code.licence}): tested by running it.")
         return notes
 
-    def _refused(self) -> str:
+    def _refuse_files(self) -> str:
         """Why the code gets no files, "" where it does."""
         if self.scene.masses and self.code.name not in OWN_MASSES:
             return f"mass: {self.code.title} has one density, no vertex a mass of its own"
@@ -145,7 +137,7 @@ class CodeSetup(CellInScene):
             return f"obstacle: {self.code.title} is not given it, {' and '.join(OBSTACLES)} are"
         return refusal(self.scene)
 
-    def _too_coarse(self) -> str:
+    def _warn_of_depth(self) -> str:
         """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
 
         A spring from layer to layer rises by the height H over a side l of a square. At a remaining rise s
@@ -176,7 +168,7 @@ class CodeSetup(CellInScene):
         }
 
     def files(self) -> dict[str, Write]:
-        if self._refused():
+        if self._refuse_files():
             return {}
         texts = files(self.code.name, self.problem)
         return {name: partial(write_text, text=text) for name, text in texts.items()}
@@ -203,35 +195,35 @@ def setup(
     scene = scene_of(scene)
     require_choice("--for", code, WRITERS)
     fabric = "; of Newton's solvers Style3D takes A11, A22 and A66 as tri_aniso_ke (docs/cells.md)"
-    why = f"its numbers are of one isotropic material and thickness{fabric * (code == 'newton')}"
-    require_uniform(scene, f"--for {code}", why)
+    reason = f"its numbers are of one isotropic material and thickness{fabric * (code == 'newton')}"
+    require_uniform(scene, f"--for {code}", reason)
     require_flat_at_rest(scene, f"--for {code}")
     row = CODES[code]
     if squares < 2:
         raise BadInput(f"{squares} squares along the shorter side: at least 2")
     spacing = float(min(scene.sheet.lengths)) / squares
-    at_rest = named and _at_rest(scene)
+    at_rest = named and _has_statics(scene)
     best, missing, given = best and at_rest and not coefficients, "", given or {}
-    name, off, fixed = mesh or row.mesh, None, dict(coefficients or {})
+    name, error_left, fixed = mesh or row.mesh, None, dict(coefficients or {})
     if name == LAYERED:
-        found = layered_springs(scene, spacing) | fixed
-        cell = tetrahedral_cell(spacing, found["layers"])
+        values = layered_springs(scene, spacing) | fixed
+        cell = tetrahedral_cell(spacing, values["layers"])
     else:
         springs = row.elements == "springs"  # it has no membrane but these
         cell = triangular_cell(name, spacing) if springs else cell_of(name, spacing, hinge=row.hinge)
         none = {"lambda_h": 0.0, "mu_h": 0.0} if springs else None
-        found = nearest(cell, scene.material, scene.sheet.thickness, none) | fixed
+        values = nearest(cell, scene.material, scene.sheet.thickness, none) | fixed
     try:
         if best and name == LAYERED:
-            found = layered_springs(scene, spacing, best=True)
-            cell = tetrahedral_cell(spacing, found["layers"])
-        elif best and (better := best_hinge(scene, cell, found)):
-            found["hinge"] = better
+            values = layered_springs(scene, spacing, best=True)
+            cell = tetrahedral_cell(spacing, values["layers"])
+        elif best and (better := best_hinge(scene, cell, values)):
+            values["hinge"] = better
         if at_rest:
-            off = limit_error(scene, moduli_of(cell, {one: found[one] for one in cell.units()}))
+            error_left = limit_error(scene, moduli_of(cell, {one: values[one] for one in cell.units()}))
     except NoEquilibrium as error:
         best, missing = False, str(error)
-    return CodeSetup(scene, cell, found, off, missing, row, squares, best and not given, given, named)
+    return CodeSetup(scene, cell, values, error_left, missing, row, squares, best and not given, given, named)
 
 
 def squares_of(grid: GridLike) -> int:
@@ -243,7 +235,7 @@ def squares_of(grid: GridLike) -> int:
     return int(str(grid)) - 1
 
 
-def _at_rest(scene: Scene) -> bool:
+def _has_statics(scene: Scene) -> bool:
     try:
         require_static(scene)
     except SceneError:

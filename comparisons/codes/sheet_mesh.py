@@ -75,34 +75,33 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     """Return the mesh of a scene's sheet, `squares` along its shorter side.
 
     pattern: ONE or ALTERNATE; beyond_share: how far beyond an edge its second row is, over a square's side.
-    Raises BadInput for features that these codes lack: supports but points at vertices and clamped and hinged
-    edges that stay, loads but weight and forces at points and along edges.
-    """
-    if why := refusal(scene):
-        raise BadInput(f"{scene.name}: {why}")
+    Raises BadInput for features that codes of meshes lack: supports but points at vertices and clamped and
+    hinged edges that stay, loads but weight and forces at points and along edges."""
+    if reason := refusal(scene):
+        raise BadInput(f"{scene.name}: {reason}")
     counts = near_square(scene.sheet, squares)
     spacing = np.array(scene.sheet.lengths) / counts
-    beyond = {edge: 0 for edge in EDGES} | {
+    rows_beyond = {edge: 0 for edge in EDGES} | {
         s.edge: 1 for s in scene.supports if isinstance(s, Clamped) and s.edge
     }
     i, j = np.meshgrid(
-        np.arange(-beyond["x0"], counts[0] + beyond["x1"] + 1),
-        np.arange(-beyond["y0"], counts[1] + beyond["y1"] + 1),
+        np.arange(-rows_beyond["x0"], counts[0] + rows_beyond["x1"] + 1),
+        np.arange(-rows_beyond["y0"], counts[1] + rows_beyond["y1"] + 1),
         indexing="ij",
     )
     number = np.arange(i.size).reshape(i.shape)
-    triangles = np.array(list(_triangles(number, (i + j)[:-1, :-1] % 2 == 1, pattern == ALTERNATE)))
+    triangles = np.array(list(_cut_squares(number, (i + j)[:-1, :-1] % 2 == 1, pattern == ALTERNATE)))
     held, inside, share = np.zeros(i.shape, dtype=bool), np.ones(i.shape, dtype=bool), np.ones(i.shape)
     for edge, words in EDGES.items():
-        along = (i, j)[words.normal_axis]
-        outwards = along - counts[words.normal_axis] if words.far_end else -along
-        held |= (outwards >= 0) & any(support.edge == edge for support in scene.supports)
-        inside &= outwards <= 0
-        share[outwards == 0] *= 0.5
+        position = (i, j)[words.normal_axis]
+        distance = position - counts[words.normal_axis] if words.far_end else -position
+        held |= (distance >= 0) & any(support.edge == edge for support in scene.supports)
+        inside &= distance <= 0
+        share[distance == 0] *= 0.5
     for name, support in named(scene.supports).items():
         if (shape := place(support)) is not None:
-            held |= _held_in(shape, name, (i, j), spacing, counts)
-    own = inside.ravel()[triangles].all(axis=1)
+            held |= _find_held(shape, name, (i, j), spacing, counts)
+    on_sheet = inside.ravel()[triangles].all(axis=1)
     plan = [
         (n.ravel() - (1.0 - beyond_share) * (n.ravel() - np.clip(n.ravel(), 0, count))) * side
         for n, count, side in zip((i, j), counts, spacing, strict=True)
@@ -112,39 +111,41 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     forces = np.zeros_like(places)
     for load in scene.loads:
         if isinstance(load, PointLoad):
-            corners, shares = _shares(places, triangles[own], np.array(load.at))
+            corners, shares = _locate_point(places, triangles[on_sheet], np.array(load.at))
             forces[corners] += load.last_factor * np.outer(shares, load.force)
         elif isinstance(load, EdgeLoad):
             words = EDGES[load.edge]
             axis, end = words.normal_axis, counts[words.normal_axis] if words.far_end else 0
             lengths = spacing[1 - axis] * 2.0 * share * (inside & ((i, j)[axis] == end))
             forces += load.last_factor * np.outer(lengths.ravel(), load.force_per_length)
-    carried = np.zeros(len(places))
+    payload_mass = np.zeros(len(places))
     for payload in scene.masses:
         assert payload.at is not None  # `refusal` has those of a part
-        corners, shares = _shares(places, triangles[own], np.array(payload.at))
-        carried[corners] += payload.mass * np.array(shares)
-    points = {name: _shares(places, triangles[own], np.array(at)) for name, at in scene.probes.items()}
+        corners, shares = _locate_point(places, triangles[on_sheet], np.array(payload.at))
+        payload_mass[corners] += payload.mass * np.array(shares)
+    points = {
+        name: _locate_point(places, triangles[on_sheet], np.array(at)) for name, at in scene.probes.items()
+    }
     return SheetMesh(
         places,
         triangles,
         held.ravel(),
-        np.where(inside, per_square * share, per_square).ravel() + carried,
+        np.where(inside, per_square * share, per_square).ravel() + payload_mass,
         forces,
         np.zeros(3) if scene.gravity is None else np.array(scene.gravity.last_acceleration),
         points,
         tuple(
             {
-                **one.model_dump(mode="json", include={"kind", "normal", "axis", "radius", "friction"}),
-                "position": one.place().tolist(),
+                **obstacle.model_dump(mode="json", include={"kind", "normal", "axis", "radius", "friction"}),
+                "position": obstacle.place().tolist(),
             }
-            for one in scene.obstacles
+            for obstacle in scene.obstacles
         ),
         0.5 * scene.sheet.thickness,
     )
 
 
-def _held_in(
+def _find_held(
     shape: Shape, name: str, at: tuple[np.ndarray, np.ndarray], spacing: np.ndarray, counts: tuple[int, int]
 ) -> np.ndarray:
     """Return a mask of the vertices that a point or a rectangle holds; at: their numbers along x and y.
@@ -161,22 +162,22 @@ def _held_in(
 
 
 def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> tuple[SheetMesh, np.ndarray]:
-    """Two layers of a flat mesh's vertices, this far apart [m], and the tetrahedra between (m, 4).
+    """Return two layers of a flat mesh's vertices at a distance of `height` [m], and the tetrahedra between
+    (m, 4).
 
-    Lower and upper vertices take turns; triangles are the layers' own, probes the mean of both.
-    """
+    Lower and upper vertices take turns; triangles are the layers' own, probes the mean of both."""
     counts = near_square(scene.sheet, squares)
     spacing = np.array(scene.sheet.lengths) / counts
     places = np.rint(flat.vertices[:, :2] / spacing).astype(int)
     number = {place: n for n, place in enumerate(map(tuple, places.tolist()))}
     cells = [
         [2 * number[i, j] + layer for i, j, layer in corners]
-        for at in number
-        if (at[0] + 1, at[1] + 1) in number
-        for corners in five(*at)
+        for square in number
+        if (square[0] + 1, square[1] + 1) in number
+        for corners in five(*square)
     ]
     lift = np.array([[0.0, 0.0, -0.5], [0.0, 0.0, 0.5]]) * height
-    half = {
+    probes = {
         name: ([2 * v + layer for v in corners for layer in (0, 1)], (0.5 * np.repeat(shares, 2)).tolist())
         for name, (corners, shares) in flat.probes.items()
     }
@@ -187,7 +188,7 @@ def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> t
         np.repeat(flat.masses, 2) / 2.0,
         np.repeat(flat.forces, 2, axis=0) / 2.0,
         flat.gravity,
-        half,
+        probes,
     ), np.array(cells)
 
 
@@ -205,8 +206,8 @@ def refusal(scene: Scene) -> str:
         return 'twist = "held": their hinges let the twist of the edge go'
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
         return "their clamps stand upright, and supports stay where they are"
-    if drawn := ", ".join(word for word in scene.shaped_by.split(", ") if word not in HELD):
-        return f"{drawn}: their meshes are of whole rectangles"
+    if shapes := ", ".join(word for word in scene.shaped_by.split(", ") if word not in HELD):
+        return f"{shapes}: their meshes are of whole rectangles"
     if any(
         not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
         for load in scene.loads
@@ -215,17 +216,17 @@ def refusal(scene: Scene) -> str:
     return ""
 
 
-def _triangles(number: np.ndarray, odd: np.ndarray, alternate: bool) -> Iterator[tuple[int, int, int]]:
+def _cut_squares(number: np.ndarray, odd: np.ndarray, alternate: bool) -> Iterator[tuple[int, int, int]]:
     for (i, j), second in np.ndenumerate(odd):
         a, d, b, c = number[i : i + 2, j : j + 2].ravel().tolist()
         yield from ((a, b, d), (b, c, d)) if alternate and second else ((a, b, c), (a, c, d))
 
 
-def _shares(places: np.ndarray, triangles: np.ndarray, at: np.ndarray) -> tuple[list[int], list[float]]:
+def _locate_point(places: np.ndarray, triangles: np.ndarray, at: np.ndarray) -> tuple[list[int], list[float]]:
     """The triangle that a point lies in, and the shares of its corners."""
     plan = places[triangles][:, :, :2]
     edges = (plan[:, 1:] - plan[:, :1]).transpose(0, 2, 1)
-    second = np.linalg.solve(edges, (at - plan[:, 0])[:, :, None])[:, :, 0]
-    shares = np.column_stack([1.0 - second.sum(axis=1), second])
+    coordinates = np.linalg.solve(edges, (at - plan[:, 0])[:, :, None])[:, :, 0]
+    shares = np.column_stack([1.0 - coordinates.sum(axis=1), coordinates])
     nearest = int(np.argmax(shares.min(axis=1)))
     return triangles[nearest].tolist(), shares[nearest].tolist()

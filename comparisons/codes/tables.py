@@ -77,23 +77,23 @@ NAMES = {  # and what they are
 def arrays(lattice: Description) -> dict[str, np.ndarray]:
     """Return the arrays by the names of `NAMES`."""
     layers = 1 + int(lattice.index[:, 2].max())
-    found: dict[str, np.ndarray] = {
+    values: dict[str, np.ndarray] = {
         "positions": lattice.positions,
         "index": lattice.index,
         "mass": lattice.mass,
         "damping_rate": np.array(lattice.damping_rate),
         "critical_damping_rate": np.array(lattice.steps.critical_rate),
         **{f"{name}_step": np.array(step) for name, step in lattice.steps.advised.items()},
-        **{f"link_{name}": values for name, values in vars(lattice.links).items()},
-        "hold_masses": _repeated([hold.masses for hold in lattice.holds], layers),
+        **{f"link_{name}": column for name, column in vars(lattice.links).items()},
+        "hold_masses": _repeat_masses([hold.masses for hold in lattice.holds], layers),
         "hold_axis": np.array([hold.axis for hold in lattice.holds], dtype=int),
         "hold_displacement": np.array([hold.displacement for hold in lattice.holds]),
         "load": lattice.dead,
         "pressure": lattice.pressure,
         "pressed_corners": lattice.pressed,
         "couple_masses": np.array([(c.top, c.bottom) for c in lattice.couples], dtype=int).reshape(-1, 2),
-        "couple_before": _repeated([couple.before for couple in lattice.couples], layers),
-        "couple_after": _repeated([couple.after for couple in lattice.couples], layers),
+        "couple_before": _repeat_masses([couple.before for couple in lattice.couples], layers),
+        "couple_after": _repeat_masses([couple.after for couple in lattice.couples], layers),
         "couple_moment": np.array([couple.moment for couple in lattice.couples]),
         **dict(zip(("contact_masses", "contact_weights", "contact_values"), lattice.contact, strict=True)),
         "state_name": np.array([state.name for state in lattice.states]),
@@ -105,16 +105,16 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
     for kind, components in (("area", 1), ("strain", 3), ("coupling", 3), ("rubber", 8), ("face", 1)):
         cells = [table for table in lattice.cells if table.kind == kind]
         corners = [np.repeat(t.corners, layers // t.corners.shape[2], axis=2) for t in cells]
-        found[f"{kind}_corners"] = np.concatenate([np.empty((0, 4, layers), dtype=int), *corners])
-        found[f"{kind}_rest"] = np.concatenate([np.empty(0), *(table.rest_area for table in cells)])
-        found[f"{kind}_natural"] = np.concatenate([np.empty((0, 3)), *(table.natural for table in cells)])
+        values[f"{kind}_corners"] = np.concatenate([np.empty((0, 4, layers), dtype=int), *corners])
+        values[f"{kind}_rest"] = np.concatenate([np.empty(0), *(table.rest_area for table in cells)])
+        values[f"{kind}_natural"] = np.concatenate([np.empty((0, 3)), *(table.natural for table in cells)])
         for name in ("stiffness", "damping"):
-            values = np.concatenate([np.empty((0, components)), *(getattr(table, name) for table in cells)])
-            found[f"{kind}_{name}"] = values[:, 0] if components == 1 else values
-    return {name: found[name] for name in NAMES}
+            column = np.concatenate([np.empty((0, components)), *(getattr(table, name) for table in cells)])
+            values[f"{kind}_{name}"] = column[:, 0] if components == 1 else column
+    return {name: values[name] for name in NAMES}
 
 
-def _repeated(groups: Sequence[tuple[int, ...]], width: int) -> np.ndarray:
+def _repeat_masses(groups: Sequence[tuple[int, ...]], width: int) -> np.ndarray:
     """Masses of each group as often as it takes to fill a row of `width`, (g, width)."""
     rows = [np.repeat(group, width // len(group)) for group in groups]
     return np.array(rows, dtype=int).reshape(-1, width)
@@ -135,46 +135,46 @@ def tables(lattice: Description) -> dict[str, str]:
     loaded = np.flatnonzero(lattice.dead.any(axis=1))
     return {
         "nodes.csv": _csv(
-            "number,i,j,k,x,y,z,mass", _rows(numbers, lattice.index, lattice.positions, lattice.mass)
+            "number,i,j,k,x,y,z,mass", _zip(numbers, lattice.index, lattice.positions, lattice.mass)
         ),
-        "links.csv": _csv("a,b,family,rest_length,stiffness,damping", _rows(*vars(lattice.links).values())),
-        "cells.csv": _csv(",".join(cells), _cells(lattice, width)),
+        "links.csv": _csv("a,b,family,rest_length,stiffness,damping", _zip(*vars(lattice.links).values())),
+        "cells.csv": _csv(",".join(cells), _list_cells(lattice, width)),
         "supports.csv": _csv(
             "edge,masses,component,displacement",
             (
-                [h.edge.replace(" ", "_"), _joined(h.masses), AXES[h.axis], h.displacement]
+                [h.edge.replace(" ", "_"), _join_numbers(h.masses), AXES[h.axis], h.displacement]
                 for h in lattice.holds
             ),
         ),
-        "loads.csv": _csv("number,fx,fy,fz", _rows(loaded, lattice.dead[loaded])),
-        "followers.csv": _csv(f"kind,{corners},value", _followers(lattice)),
+        "loads.csv": _csv("number,fx,fy,fz", _zip(loaded, lattice.dead[loaded])),
+        "followers.csv": _csv(f"kind,{corners},value", _list_loads(lattice)),
         "check.csv": _csv(
             "state,number,ux,uy,uz,fx,fy,fz",
             (
                 row
                 for state in lattice.states
-                for row in _rows([state.name] * len(numbers), numbers, state.displacement, state.force)
+                for row in _zip([state.name] * len(numbers), numbers, state.displacement, state.force)
             ),
         ),
         "states.csv": _csv("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
     }
 
 
-def _followers(lattice: Description) -> Iterator[Row]:
+def _list_loads(lattice: Description) -> Iterator[Row]:
     """Loads that follow the sheet: pressed cells, and the couples of edges by their four groups of masses."""
     for corners, pressure in zip(lattice.pressed.tolist(), lattice.pressure.tolist(), strict=True):
-        yield ["pressure", *map(_joined, corners), pressure]
+        yield ["pressure", *map(_join_numbers, corners), pressure]
     for couple in lattice.couples:
-        around = map(_joined, (couple.before, couple.after))
-        yield ["moment", couple.top, couple.bottom, *around, couple.moment]
+        neighbours = map(_join_numbers, (couple.before, couple.after))
+        yield ["moment", couple.top, couple.bottom, *neighbours, couple.moment]
 
 
-def _cells(lattice: Description, width: int) -> Iterator[Row]:
+def _list_cells(lattice: Description, width: int) -> Iterator[Row]:
     """Kind, corners, area at rest, stiffness and damping of every cell with springs."""
     for table in lattice.cells:
-        corners = np.array([[*map(_joined, masses)] for masses in table.corners.tolist()])
-        stiffness, damping = _wide(table.stiffness, width), _wide(table.damping[:, :3], 3)
-        yield from _rows([table.kind] * len(corners), corners, table.rest_area, stiffness, damping)
+        corners = np.array([[*map(_join_numbers, masses)] for masses in table.corners.tolist()])
+        stiffness, damping = _pad_columns(table.stiffness, width), _pad_columns(table.damping[:, :3], 3)
+        yield from _zip([table.kind] * len(corners), corners, table.rest_area, stiffness, damping)
 
 
 def natural(lattice: Description) -> str:
@@ -184,37 +184,35 @@ def natural(lattice: Description) -> str:
         row
         for first, table in zip(places, lattice.cells, strict=False)
         if table.kind in ("strain", "coupling")
-        for row in _rows(first + np.arange(len(table.corners)), table.natural)
+        for row in _zip(first + np.arange(len(table.corners)), table.natural)
     )
     return _csv("cell,aa,bb,ab", rows)
 
 
 def contacts(lattice: Description, scene: Scene) -> dict[str, str]:
     """Return the tables of obstacles and of points that may touch them."""
-    around = (f"{name}_{n}" for name in ("mass", "weight") for n in range(1, 1 + lattice.contact[0].shape[1]))
-    bodies = np.nan_to_num(
-        [[*one.place(), *one.direction, one.radius] for one in scene.obstacles], posinf=0.0
-    )
-    place, kinds = "x,y,z,ax,ay,az,radius", [one.kind for one in scene.obstacles]
+    titles = (f"{name}_{n}" for name in ("mass", "weight") for n in range(1, 1 + lattice.contact[0].shape[1]))
+    bodies = np.nan_to_num([[*o.place(), *o.direction, o.radius] for o in scene.obstacles], posinf=0.0)
+    axes, kinds = "x,y,z,ax,ay,az,radius", [o.kind for o in scene.obstacles]
     return {
-        "obstacles.csv": _csv(f"kind,{place}", _rows(kinds, bodies)),
-        "contacts.csv": _csv(",".join([*around, place, "area,offset,stiffness"]), _rows(*lattice.contact)),
+        "obstacles.csv": _csv(f"kind,{axes}", _zip(kinds, bodies)),
+        "contacts.csv": _csv(",".join([*titles, axes, "area,offset,stiffness"]), _zip(*lattice.contact)),
     }
 
 
-def _wide(values: np.ndarray, width: int) -> np.ndarray:
+def _pad_columns(values: np.ndarray, width: int) -> np.ndarray:
     """Return rows with zeros behind them, of so many columns."""
     return np.pad(values, ((0, 0), (0, width - values.shape[1])))
 
 
-def _rows(*parts: Sequence[Any] | np.ndarray) -> Iterator[Row]:
+def _zip(*parts: Sequence[Any] | np.ndarray) -> Iterator[Row]:
     """Return the rows of columns (n,) and of several at once (n, k), side by side, as plain numbers."""
     return zip(
         *(column for part in parts for column in np.atleast_2d(np.transpose(part)).tolist()), strict=True
     )
 
 
-def _joined(masses: Sequence[int]) -> str:
+def _join_numbers(masses: Sequence[int]) -> str:
     return "+".join(map(str, masses))
 
 

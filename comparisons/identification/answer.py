@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -13,23 +13,34 @@ from comparisons.identification.unknowns import Estimate
 from comparisons.models.grading import choice_notes
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import RASTER, Picture
-from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Table, quantity, unit
+from sheetbench.answers.table import MILLIMETRES, NUMBER, SECONDS, Table, TableUnit, quantity, unit
 from sheetbench.scenes import Scene
 
-UNKNOWNS = (
-    *("unknown", "unit", NUMBER(".6g", "value"), NUMBER(".6g", "from"), NUMBER(".6g", "to")),
-    *(NUMBER(".6g", "on finer cells"), NUMBER(".6g", "start")),
-)
 SHOWN = 20  # residuals on the terminal; all of them are in the files
+
+
+@dataclass(frozen=True)
+class UnknownRow:
+    """An unknown's value and interval, value on finer cells and start; undetermined values are None."""
+
+    unknown: str
+    unit: TableUnit
+    value: Annotated[float | None, NUMBER(".6g")]
+    low: Annotated[float | None, NUMBER(".6g", "from")]
+    high: Annotated[float | None, NUMBER(".6g", "to")]
+    refined: Annotated[float | None, NUMBER(".6g", "on finer cells")]
+    start: Annotated[float, NUMBER(".6g")]
 
 
 @dataclass(frozen=True, repr=False)
 class Identification(Answer):
-    """unknowns: name → Estimate; residuals [m], model − measured: (n, 3) of displacements, nan where nothing
-    was measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over
-    the largest measurement; converged: whether the search ended at a minimum; runs: whether neighbouring
-    residuals have one sign; explained: whether what is left is small, or noise; starts: of the search; grids:
-    the lattices that were fitted; outliers: rows that do not fit."""
+    """Values of unknowns of a scene with intervals, and the fit's residuals.
+
+    unknowns: name → Estimate; residuals [m], model − measured: (n, 3) of displacements, nan where nothing was
+    measured, or (n,) along the normals at cloud points; noise: s [m]; relative: the largest residual over the
+    largest measurement; converged: whether the search ended at a minimum; runs: the runs test of neighbouring
+    residuals; explained: whether the residuals are small, or noise; starts: number of starts of the search;
+    grids: the lattices that were fitted; outliers: rows that do not fit."""
 
     file_name = "identification"
     scene: Scene
@@ -51,8 +62,7 @@ class Identification(Answer):
 
     @property
     def contains(self) -> str:
-        """What the intervals contain: the measurements' noise, and the error of the grid or mesh; "" where
-        there are none."""
+        """Sources of error in the intervals: noise, and the grid or mesh; "" without intervals."""
         if all(u.interval is None for u in self.unknowns.values()):
             return ""
         if all(u.interval == u.noise_interval for u in self.unknowns.values()):
@@ -61,8 +71,8 @@ class Identification(Answer):
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench identify`: SI units, null where nothing was measured."""
-        own = {name: value for name, value in vars(self).items() if name != "measured"}
-        return own | {
+        fields = {name: value for name, value in vars(self).items() if name != "measured"}
+        return fields | {
             "scene": self.scene.name,
             "unknowns": {name: asdict(u) for name, u in self.unknowns.items()},
             "points": self.measured.points,
@@ -72,46 +82,40 @@ class Identification(Answer):
         }
 
     def tables(self) -> tuple[Table, ...]:
-        """Return the unknowns, and what does not fit, by point."""
-        return self._unknowns(), self._residuals(
+        """Return a table of the unknowns and one of the residuals of all points."""
+        return self._list_unknowns(), self._list_residuals(
             np.arange(len(self.residuals)), "Residuals: model − measurement"
         )
 
     def printed(self) -> tuple[Table, ...]:
-        """Return the unknowns, and the points that fit least, at most SHOWN of them, in the order of the
-        file."""
+        """Return the tables of unknowns and of the SHOWN largest residuals, in the order of the file."""
         if len(self.residuals) <= SHOWN:
             return self.tables()
         size = np.nan_to_num(np.abs(self.residuals)).reshape(len(self.residuals), -1).max(axis=1)
         caption = f"Residuals (model − measurement): the {SHOWN} points of {len(size)} that fit least"
-        return self._unknowns(), self._residuals(np.sort(np.argsort(size)[-SHOWN:]), caption)
+        return self._list_unknowns(), self._list_residuals(np.sort(np.argsort(size)[-SHOWN:]), caption)
 
-    def _unknowns(self) -> Table:
-        """Return a row per unknown in its unit; nothing of what the data do not determine."""
-        rows = [
-            (
-                name,
-                unit(u.unit),
-                *((u.value, *(u.interval or [None] * 2), u.refined) if u.determined else [None] * 4),
-                u.start,
-            )
-            for name, u in self.unknowns.items()
-        ]
+    def _list_unknowns(self) -> Table:
+        """Return a row per unknown in its unit, empty for an unknown that the data do not determine."""
+        rows = []
+        for name, u in self.unknowns.items():
+            ends = u.interval or (None, None)
+            values: Any = (u.value, *ends, u.refined) if u.determined else [None] * 4
+            rows.append(UnknownRow(*(name, unit(u.unit), *values, u.start)))
         caption = f"Values and their 95 % intervals, of {self.contains}" if self.contains else "Values"
-        return Table.listed(caption, UNKNOWNS, rows, "unknowns")
+        return Table.of(UnknownRow, rows, caption, "unknowns")
 
-    def _residuals(self, points: np.ndarray, caption: str) -> Table:
-        """Return measured points (and times), and what the model is off there: by component, or along the
-        normal."""
-        flat = isinstance(self.measured, Displacements)
-        names = [f"off in u{axis}" for axis in "xyz"] if flat else ["distance"]
-        columns, at = [MILLIMETRES("z.2f", axis) for axis in "xyz"], self.measured.points
-        columns = columns[: at.shape[1]]
+    def _list_residuals(self, rows: np.ndarray, caption: str) -> Table:
+        """Return a row per measured point (and time): its residual by component, or along the normal."""
+        by_component = isinstance(self.measured, Displacements)
+        names = [f"off in u{axis}" for axis in "xyz"] if by_component else ["distance"]
+        columns, places = [MILLIMETRES("z.2f", axis) for axis in "xyz"], self.measured.points
+        columns = columns[: places.shape[1]]
         if self.measured.time is not None:
-            columns, at = [SECONDS(".4f", "t"), *columns], np.column_stack([self.measured.time, at])
-        off = self.residuals.reshape(len(self.residuals), -1)
+            columns, places = [SECONDS(".4f", "t"), *columns], np.column_stack([self.measured.time, places])
+        values = self.residuals.reshape(len(self.residuals), -1)
         columns += [MILLIMETRES("z.4f", name) for name in names]
-        return Table.listed(caption, columns, np.column_stack([at, off])[points].tolist(), "residuals")
+        return Table.listed(caption, columns, np.column_stack([places, values])[rows].tolist(), "residuals")
 
     def figures(self) -> tuple[Picture, ...]:
         compose = "comparisons.identification.figure:compose"
@@ -119,21 +123,23 @@ class Identification(Answer):
 
     def result(self) -> str:
         """Return the values and their intervals."""
-        return "; ".join(f"{name} {_in_words(u)}" for name, u in self.unknowns.items())
+        return "; ".join(f"{name} {_format_estimate(u)}" for name, u in self.unknowns.items())
 
     def notes(self) -> tuple[str, ...]:
-        return *choice_notes(self.settings), self._explanation()
+        return *choice_notes(self.settings), self._explain_fit()
 
-    def _explanation(self) -> str:
-        """Return what was fitted with what, how well, and what the interval assumes."""
-        size = "×".join(map(str, self.settings.get("grid") or self.settings["elements"]))
-        tried = " → ".join("×".join(map(str, grid)) for grid in self.grids)
-        cells = f" (cells chosen by the fit: {tried})" if len(self.grids) > 1 else ""
-        model = f"{self.model} {size}{cells}"
+    def _explain_fit(self) -> str:
+        """Return a sentence on the model, its residuals and the assumptions of the intervals."""
+        counts = "×".join(map(str, self.settings.get("grid") or self.settings["elements"]))
+        model = f"{self.model} {counts}"
+        if len(self.grids) > 1:
+            coarse, fine = ("×".join(map(str, grid[:2])) for grid in (self.grids[0], self.grids[-1]))
+            model += f" (the fit refined the lattice from {coarse} to {fine} masses)"
         if not self.contains:
+            numbers = "one measured number fixes" if len(self.unknowns) == 1 else "the measured numbers fix"
             return (
-                f"{model}: as many unknowns as measured numbers: there is no interval; measure more points, "
-                "or give the standard deviation of a number (--uncertainty)."
+                f"{model}: {numbers} {', '.join(self.unknowns)} but no interval: measure more "
+                "points, or give their accuracy with --uncertainty."
             )
         contained = {
             "noise only": "It contains no ",
@@ -162,9 +168,9 @@ class Identification(Answer):
         return self.converged
 
 
-def _in_words(found: Estimate) -> str:
-    """Return a value with its interval."""
-    value, *ends = (quantity(one, found.unit, ".4g") for one in (found.value, *(found.interval or ())))
-    if not found.determined:
+def _format_estimate(u: Estimate) -> str:
+    """Return an unknown's value with its interval in words."""
+    value, *ends = (quantity(end, u.unit, ".4g") for end in (u.value, *(u.interval or ())))
+    if not u.determined:
         return "not determined"
     return f"{value} ({' to '.join(ends) or 'no interval'})"

@@ -15,7 +15,7 @@ REFUSED = 2  # exit status; what is wrong is the last line of standard error
 
 
 def read(path: str) -> dict[str, Any]:
-    """Return what the file has."""
+    """Return labels, positions, unit and rate of the markers of a C3D file."""
     import ezc3d
 
     content = ezc3d.c3d(path)
@@ -29,14 +29,14 @@ def read(path: str) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    answer = os.dup(1)
+    output = os.dup(1)
     os.dup2(2, 1)  # what ezc3d prints is no part of the archive
     try:
-        found = read(sys.argv[1])
+        markers = read(sys.argv[1])
     except Exception as error:  # ezc3d has no error of its own
         print(f"{error}", file=sys.stderr)
         sys.exit(REFUSED)
     archive = BytesIO()
-    np.savez(archive, **found)
-    with os.fdopen(answer, "wb") as file:
+    np.savez(archive, **markers)
+    with os.fdopen(output, "wb") as file:
         file.write(archive.getvalue())

@@ -1,11 +1,11 @@
 """Columns of numbers from a CSV file as spreadsheets, cameras, testing machines and numpy write them.
 
-The first line with the names of two columns that are looked for, in any order and case, is the header: what a
-machine writes above it is passed over. A name may have several words, and a unit may follow it in brackets,
-as in "uz [mm]", or stand below it in a row of units: numbers are converted to SI units, which they are in
-where no unit is given. Lines that begin with # are comments. Cells are separated by commas, semicolons or
-tabs, whichever the header has; where commas do not separate they may be decimal commas, as long as no number
-has a point. An empty cell, or NaN, is a number that was not measured.
+The header is the first line with the names of two of the requested columns, in any order and case; lines
+above it are skipped. A name may have several words, and a unit may follow it in brackets, as in "uz [mm]", or
+stand below it in a row of units; numbers without a unit are in SI units, others are converted to them. Lines
+that begin with # are comments. Cells are separated by commas, semicolons or tabs, whichever the header has;
+where commas do not separate they may be decimal commas, as long as no number has a point. An empty cell, or
+NaN, is a number that was not measured.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ _SHOWN = 40  # characters of a cell that a refusal repeats
 
 @dataclass(frozen=True)
 class Row:
-    """A line of a file: `where` names it, `cells` holds its text by column; scales: name of a column → SI
-    units per unit of its numbers."""
+    """A line of a file: `where` is its name in a message, `cells` its text by column, `scales` the SI units
+    per unit of a column's numbers."""
 
     where: str
     cells: dict[str, str]
@@ -51,8 +51,7 @@ class Row:
         return value
 
     def measured(self, name: str) -> float:
-        """Return the number in a column, nan where it was not measured. Raises BadInput for what is no
-        number."""
+        """Return the number in a column, nan where not measured. Raises BadInput for any other text."""
         text = self.cells[name]
         if text.lower() in ("", "nan"):
             return nan
@@ -68,7 +67,7 @@ class Row:
         return value
 
     def refused(self, name: str, why: str) -> BadInput:
-        """Return the refusal of a cell."""
+        """Return the error for a cell."""
         text = self.cells[name]
         shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
         return BadInput(f"{self.where}: {name} = '{shown}': {why}")
@@ -87,89 +86,86 @@ class Columns:
 
 
 def read_columns(path: Path, units: Mapping[str, str] = MOTION) -> Columns:
-    """Return the columns of a file; units: the names of those that are looked for, and their SI units.
+    """Return the columns of a file; units: requested columns by name, with their SI units.
 
-    Raises BadInput naming the file, the line and what is wrong there.
-    """
+    Raises BadInput naming the file, the line and the fault."""
     try:
         lines = read_text(path, LARGEST_FILE).splitlines()
     except OSError as error:
         raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise BadInput(f"{path}: not a text file in UTF-8") from None
-    kept = [
-        (i, line) for i, line in enumerate(lines, 1) if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not kept:
+    entries = [(i, line) for i, line in enumerate(lines, 1) if line.strip()[:1] not in ("", "#")]
+    if not entries:
         return Columns((), ())
-    known = (len({_headed(c)[0] for c in _CELL.findall(line)} & units.keys()) for _, line in kept)
-    kept = kept[next((at for at, count in enumerate(known) if count > 1), 0) :]
-    separator = next((mark for mark in SEPARATORS if mark in kept[0][1]), ",")
-    (_, header), *parsed = _parsed(path, kept, separator)
-    if parsed and (with_units := _with_units(header, parsed[0][1], units)) is not None:
-        header, parsed = with_units, parsed[1:]
-    named = [_quantity(path, cell, units) for cell in header]
-    names, scales = tuple(name for name, _ in named), dict(named)
-    repeated = [name for name in names if name and names.count(name) > 1]
-    if repeated:
-        raise BadInput(f"{path}: column {repeated[0]} is there twice")
-    comma = separator != "," and _decimal_comma(path, parsed)
+    matches = (len({_split_unit(c)[0] for c in _CELL.findall(line)} & units.keys()) for _, line in entries)
+    entries = entries[next((index for index, matching in enumerate(matches) if matching > 1), 0) :]
+    separator = next((mark for mark in SEPARATORS if mark in entries[0][1]), ",")
+    (_, header), *body = _parse_lines(path, entries, separator)
+    if body and (merged := _merge_units(header, body[0][1], units)) is not None:
+        header, body = merged, body[1:]
+    quantities = [_read_heading(path, cell, units) for cell in header]
+    names, scales = tuple(name for name, _ in quantities), dict(quantities)
+    duplicates = [name for name in names if name and names.count(name) > 1]
+    if duplicates:
+        raise BadInput(f"{path}: column {duplicates[0]} is there twice")
+    comma = separator != "," and _uses_decimal_commas(path, body)
     rows = []
-    for i, cells in parsed:
+    for i, cells in body:
         padded = [cell.strip() for cell in cells] + [""] * (len(names) - len(cells))
         if any(padded):
             rows.append(Row(f"{path}, line {i}", dict(zip(names, padded, strict=False)), scales, comma))
     return Columns(names, tuple(rows))
 
 
-def _parsed(path: Path, kept: list[tuple[int, str]], separator: str) -> Iterator[tuple[int, list[str]]]:
+def _parse_lines(path: Path, lines: list[tuple[int, str]], separator: str) -> Iterator[tuple[int, list[str]]]:
     """Return the cells of every line, with the line's number in the file."""
-    reader = csv.reader((line for _, line in kept), delimiter=separator, skipinitialspace=True)
+    reader = csv.reader((line for _, line in lines), delimiter=separator, skipinitialspace=True)
     while True:
         try:
             cells = next(reader)
         except StopIteration:
             return
         except csv.Error as error:
-            raise BadInput(f"{path}, line {kept[reader.line_num - 1][0]}: {foreign(error)}") from None
-        yield kept[reader.line_num - 1][0], cells
+            raise BadInput(f"{path}, line {lines[reader.line_num - 1][0]}: {foreign(error)}") from None
+        yield lines[reader.line_num - 1][0], cells
 
 
-def _headed(cell: str) -> tuple[str, str]:
+def _split_unit(cell: str) -> tuple[str, str]:
     match = _HEADED.fullmatch(cell.strip(' "'))
     name, unit = (match[1], match[2] or "") if match else (cell.strip(), "")
     return "_".join(name.lower().split()), unit.strip().removeprefix("-")  # [-] of a pure number
 
 
-def _with_units(header: list[str], row: list[str], units: Mapping[str, str]) -> list[str] | None:
-    """Return the header with the units of the row below it, None where that is no row of units: one in
-    brackets, or one that its column can have, for every column that is looked for and has something there."""
-    found, seen = list(header), False
-    for at, (title, cell) in enumerate(zip(header, map(str.strip, row), strict=False)):
-        name, own = _headed(title)
+def _merge_units(header: list[str], row: list[str], units: Mapping[str, str]) -> list[str] | None:
+    """Return the header with the units of the row below it, None if that is no row of units: a unit in
+    brackets, or a unit of the column's quantity, in every nonempty cell of a requested column."""
+    merged, has_unit = list(header), False
+    for column, (title, cell) in enumerate(zip(header, map(str.strip, row), strict=False)):
+        name, own_unit = _split_unit(title)
         if not cell or name not in units:
             continue
-        unit = _headed(cell)[1] if _headed(cell)[0] == "" else cell
+        unit = _split_unit(cell)[1] if _split_unit(cell)[0] == "" else cell
         if unit == cell and not _is_unit(unit, units[name]):
             return None
-        found[at], seen = title if own else f"{name} [{unit}]", True
-    return found if seen else None
+        merged[column], has_unit = title if own_unit else f"{name} [{unit}]", True
+    return merged if has_unit else None
 
 
-def _is_unit(text: str, of: str) -> bool:
-    """Return whether a text is a unit of the same quantity as an SI unit; - is that of a pure number."""
+def _is_unit(text: str, si: str) -> bool:
+    """Return whether a text is a unit of an SI unit's quantity; "-" is the unit of pure numbers."""
     if text == "-":
-        return not of
+        return not si
     try:
-        quantity(f"1 {text}", of)
+        quantity(f"1 {text}", si)
     except BadInput:
         return False
     return not _NUMBER.fullmatch(text)
 
 
-def _quantity(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, float]:
+def _read_heading(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, float]:
     """Return a column's name, and the SI units per unit of its numbers."""
-    name, unit = _headed(cell)
+    name, unit = _split_unit(cell)
     if not unit or name not in units:
         return name, 1.0
     try:
@@ -178,13 +174,13 @@ def _quantity(path: Path, cell: str, units: Mapping[str, str]) -> tuple[str, flo
         raise BadInput(f"{path}: column {foreign(cell)}: {error}") from None
 
 
-def _decimal_comma(path: Path, parsed: list[tuple[int, list[str]]]) -> bool:
+def _uses_decimal_commas(path: Path, body: list[tuple[int, list[str]]]) -> bool:
     """Return whether numbers have commas. Raises BadInput where some have commas and others points."""
     commas = points = None
-    for i, cells in parsed:
+    for number, cells in body:
         for cell in map(str.strip, cells):
-            commas = commas or (i if _COMMA.fullmatch(cell) else None)
-            points = points or (i if _POINT.fullmatch(cell) else None)
+            commas = commas or (number if _COMMA.fullmatch(cell) else None)
+            points = points or (number if _POINT.fullmatch(cell) else None)
     if commas and points:
         raise BadInput(
             f"{path}: decimal commas (line {commas}) and decimal points (line {points}): which is meant?"

@@ -1,17 +1,17 @@
-"""Model − measurement, and the search for the unknowns with which a model comes nearest to what was measured.
+"""Residuals of a model against measurements, and the search for the unknowns that minimise them.
 
 Residuals are shares of the largest measurement: u_model − u_measured at every measured component, or the
 distances of a cloud's points from the model's surface, along its normals
 (`comparisons.identification.surface`), weighted by the inverse of standard deviations that are given. The
 search is least squares in the unknowns' x by a trust region (SciPy's `least_squares`), with a pull of PULL
-towards the scene's own values, x = 0, that holds what the data do not see at all. Where the model has no
-answer the residuals are REFUSED, and the step is shortened.
+towards the scene's own values, x = 0, which fixes combinations of x without influence on the data. Residuals
+are REFUSED at an x without an equilibrium, which shortens the step.
 
-A motion that is out of step by half a period has a minimum of its own. So the first part of the record is
-fitted first, in which no phase has gone astray, and what is found there starts the fit of twice as much of
-it. Where the fit from the scene's own values leaves more than noise, it is made from STARTS others too,
-spread over the unknowns by Halton's sequence, and the best is taken. A start that leads to where another did
-in the first part of the record is not followed.
+A motion that is out of step by half a period has a minimum of its own. So the first part of the record, short
+enough for all phases to be right, is fitted first, and its x starts the fit of twice as much of the record.
+If the fit from the scene's own values leaves more than noise, STARTS further starts are tried, spread over
+the unknowns by Halton's sequence, and the best fit is kept. A start that reaches the x of an earlier start in
+the first part of the record is dropped.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ EVALUATIONS = 60
 
 @dataclass(frozen=True)
 class Nearest:
-    """Where a search ended: x (n,); weighted residuals (m,) there, in units of the largest measurement, and
-    their slopes (m, n) by x; against_bounds: (n,), -1 or 1 where an unknown ended at its lower or upper
-    bound; converged: whether at a minimum."""
+    """End of a search: x (n,); weighted residuals (m,) there, in units of the largest measurement, and their
+    slopes (m, n) by x; against_bounds: (n,), -1 or 1 for an unknown at its lower or upper bound; converged:
+    whether the search ended at a minimum."""
 
     x: np.ndarray
     residuals: np.ndarray
@@ -68,8 +68,7 @@ class Nearest:
 
 @dataclass(frozen=True)
 class Fit:
-    """What is fitted: unknowns of a model to measurements; offset [m]: from the mid-surface, at which a cloud
-    was taken."""
+    """Unknowns of a model, and measurements to fit; offset [m]: distance of a cloud from the mid-surface."""
 
     measured: Measured
     unknowns: tuple[Unknown, ...]
@@ -77,25 +76,25 @@ class Fit:
     offset: float = 0.0
 
     def residuals(self, predicted: Prediction) -> tuple[np.ndarray, np.ndarray]:
-        """Weighted residuals (m,) and their slopes (m, n) by the unknowns' x."""
+        """Return weighted residuals (m,) and their slopes (m, n) by the unknowns' x."""
         measured, scale, axes = self.measured, self.measured.scale, self.model.axes
         if isinstance(measured, Displacements):
-            given = measured.measured
-            slopes = [slope[given] for slope in predicted.slopes]
-            residuals = (predicted.displacement - measured.displacement)[given]
+            mask = measured.measured
+            slopes = [slope[mask] for slope in predicted.slopes]
+            residuals = (predicted.displacement - measured.displacement)[mask]
         else:
-            found = surface.feet(axes, surface.Field(axes, predicted.displacement), measured.points)
+            feet = surface.feet(axes, surface.Field(axes, predicted.displacement), measured.points)
             slopes = [
-                np.einsum("nc,nc->n", found.normals, surface.Field(axes, slope).at(found.points))
+                np.einsum("nc,nc->n", feet.normals, surface.Field(axes, slope).at(feet.points))
                 for slope in predicted.slopes
             ]
-            residuals = self.offset - found.distances
-        by = self.weights / scale
-        return by * residuals, by[:, None] * np.stack(slopes, axis=1)
+            residuals = self.offset - feet.distances
+        factor = self.weights / scale
+        return factor * residuals, factor[:, None] * np.stack(slopes, axis=1)
 
     @property
     def weights(self) -> np.ndarray:
-        """Of the residuals (m,)."""
+        """Weights of the residuals (m,)."""
         of_rows = weights(self.measured)
         if isinstance(self.measured, Surface):
             return of_rows
@@ -103,22 +102,21 @@ class Fit:
 
     @property
     def deviation(self) -> float:
-        """The standard deviation of weighted residuals that the measurements come with, 0 where it is not
-        known."""
+        """Standard deviation of weighted residuals from the measurements' deviation, 0 if unknown."""
         return typical_deviation(self.measured) / self.measured.scale
 
     def predict(self, x: np.ndarray) -> Prediction:
-        """Return what the model has where it was measured. Raises NotReached where it has no answer."""
+        """Return the model's displacements at measured points. Raises NotReached without an equilibrium."""
         measured, axes = self.measured, self.model.axes
         points = surface.plan_points(axes) if isinstance(measured, Surface) else measured.points
         return self.model.predict(self.unknowns, x, points, measured.time)
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residuals and slopes at x. Raises NotReached where the model has no answer."""
+        """Return residuals and slopes at x. Raises NotReached without an equilibrium."""
         return self.residuals(self.predict(x))
 
     def per_point(self, residuals: np.ndarray) -> np.ndarray:
-        """Residuals [m] in the shape of the measurements, nan where nothing was measured."""
+        """Return residuals [m] in the shape of the measurements, nan where nothing was measured."""
         metres = residuals * self.measured.scale / self.weights
         if isinstance(self.measured, Surface):
             return metres
@@ -127,8 +125,8 @@ class Fit:
         return out
 
     def require_same_way(self, predicted: Prediction) -> None:
-        """Raise BadInput where the measured deflection points the other way than the predicted one, which
-        other values of the sheet cannot turn over."""
+        """Raise BadInput where the measured deflection points the other way than the predicted one and no
+        unknown can reverse it."""
         measured, axes = self.measured, self.model.axes
         if any(unknown.turns for unknown in self.unknowns):
             return
@@ -137,7 +135,7 @@ class Fit:
         else:
             name, deflection = "heights", measured.points[:, 2]
             model = surface.Field(axes, predicted.displacement).at(measured.points[:, :2])[:, 2]
-        correlation = _correlation(model, deflection, measured.scale)
+        correlation = _correlate(model, deflection, measured.scale)
         if correlation < OPPOSITE:
             raise BadInput(
                 f"{measured.source}: the measured {name} have the opposite sign of the model's (correlation "
@@ -147,60 +145,51 @@ class Fit:
     def search(
         self,
         start: np.ndarray,
-        first: Callable[[Fit, Prediction], None] | None = None,
+        check: Callable[[Fit, Prediction], None] | None = None,
         smallest: float = SMALLEST,
         evaluations: int = EVALUATIONS,
         pull: float = PULL,
     ) -> Nearest:
         """Return the unknowns' x with which the model comes nearest to the measurements.
 
-        start: x to begin at; first: called with this fit and what is predicted there, to refuse it;
-        smallest: change of x, or of the sum of squares, that ends the search, as do so many evaluations;
-        pull: towards the scene's own values. Raises NotReached where the model has no answer at the start.
-        """
-        kept: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
+        start: x to begin at; check: called with this fit and the prediction at the start, that may
+        raise; smallest: change of x, or of the sum of squares, that ends the search; evaluations: their
+        largest number; pull: towards the scene's own values. Raises NotReached if the model has no
+        equilibrium at the start."""
+        cache: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
 
-        def at(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        def evaluate(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             key = x.tobytes()
-            if key not in kept:
+            if key not in cache:
                 predicted = self.predict(x)
-                if first and not kept:
-                    first(self, predicted)
-                kept[key] = self.residuals(predicted)
-                size = float(np.sqrt(np.mean(kept[key][0] ** 2)))
-                known = ", ".join(
-                    f"{u.name} = {u.value(z):.6g}" for u, z in zip(self.unknowns, x, strict=True)
-                )
-                context().progress(f"{known}: off by {100 * size:.3g} % of the largest measurement")
-            return kept[key]
+                if check and not cache:
+                    check(self, predicted)
+                cache[key] = self.residuals(predicted)
+                rms = float(np.sqrt(np.mean(cache[key][0] ** 2)))
+                terms = (f"{u.name} = {u.value(z):.6g}" for u, z in zip(self.unknowns, x, strict=True))
+                context().progress(f"{', '.join(terms)}: off by {100 * rms:.3g} % of the largest measurement")
+            return cache[key]
 
         def residuals(x: np.ndarray) -> np.ndarray:
             try:
-                return np.concatenate([at(x)[0], pull * x])
+                return np.concatenate([evaluate(x)[0], pull * x])
             except NotReached as error:
                 context().progress(f"no answer there: {error}")
                 return np.concatenate([np.full(count, REFUSED), pull * x])
 
         low, high = np.array([u.bounds() for u in self.unknowns]).T
         start = np.clip(start, low, high)
-        count = len(at(start)[0])
-        best = least_squares(
-            residuals,
-            start,
-            jac=lambda x: np.vstack([at(x)[1], pull * np.eye(len(x))]),
-            bounds=(low, high),
-            xtol=smallest,
-            ftol=smallest,
-            gtol=1e-12,
-            max_nfev=evaluations,
-        )
-        return Nearest(best.x, *at(best.x), best.active_mask, len(kept), best.status > 0)
+        count = len(evaluate(start)[0])
+        limits = {"xtol": smallest, "ftol": smallest, "gtol": 1e-12, "max_nfev": evaluations}
+        slopes = lambda x: np.vstack([evaluate(x)[1], pull * np.eye(len(x))])  # noqa: E731
+        end = least_squares(residuals, start, slopes, bounds=(low, high), **limits)
+        return Nearest(end.x, *evaluate(end.x), end.active_mask, len(cache), end.status > 0)
 
 
-def _correlation(model: np.ndarray, measured: np.ndarray, scale: float) -> float:
-    """Σ model · measured over both norms, of what was measured; 0 where that is small or nothing moves."""
-    given = np.isfinite(measured)
-    model, measured = model[given], measured[given]
+def _correlate(model: np.ndarray, measured: np.ndarray, scale: float) -> float:
+    """Return the correlation of the model with measured numbers, 0 where they are small or nothing moves."""
+    present = np.isfinite(measured)
+    model, measured = model[present], measured[present]
     norms = float(np.linalg.norm(model) * np.linalg.norm(measured))
     if norms == 0.0 or np.abs(measured).max() < TELLING * scale:
         return 0.0
@@ -218,58 +207,59 @@ Refusal = Callable[[Fit, Prediction], None]
 
 
 def nearest(
-    fit: Fit, enough: Callable[[Nearest], bool], first: Refusal = Fit.require_same_way
+    fit: Fit, suffices: Callable[[Nearest], bool], check: Refusal = Fit.require_same_way
 ) -> tuple[Nearest, int]:
-    """Return the best of the searches, and from how many starts it was made; enough: whether one needs no
-    other.
+    """Return the best of the searches, and the number of starts made; suffices: whether a result needs no
+    further start.
 
-    first: called with the fit, or that of the first part, and what is predicted of the scene's own values,
-    to refuse it. Raises NotReached where the model has no answer with them, of a motion with no start.
-    """
-    reached: list[np.ndarray] = []
+    check: called with the fit of the first start, or of the first part of a motion, and the
+    prediction there, that may raise. Raises NotReached if the model has no equilibrium with the scene's own
+    values, of a motion with no start."""
+    earlier: list[np.ndarray] = []
     low, high = np.array([u.bounds() for u in fit.unknowns]).T
-    spread = np.minimum(SPREAD, 0.5 * (high - low))
+    widths = np.minimum(SPREAD, 0.5 * (high - low))
     points = 2.0 * Halton(len(low), scramble=False).random(STARTS + 1)[1:] - 1.0
     best, failure = None, NotReached()
-    for made, point in enumerate([np.zeros(len(low)), *points], 1):
-        if made > 1:
-            context().progress(f"not noise yet: start {made} of {STARTS + 1}")
+    for start, point in enumerate([np.zeros(len(low)), *points], 1):
+        if start > 1:
+            context().progress(f"not noise yet: start {start} of {STARTS + 1}")
         try:
-            found = _from(fit, np.clip(spread * point, low, high), reached, first if made == 1 else None)
+            x = np.clip(widths * point, low, high)
+            result = _search(fit, x, earlier, check if start == 1 else None)
         except NotReached as error:
-            if made == 1 and not reached:
+            if start == 1 and not earlier:
                 raise
-            failure = error if made == 1 else failure
+            failure = error if start == 1 else failure
             continue
-        if found is not None and (best is None or found.noise < best.noise):
-            best = found
-            if enough(best):
-                return best, made
+        if result is not None and (best is None or result.noise < best.noise):
+            best = result
+            if suffices(best):
+                return best, start
     if best is None:
         raise failure
     return best, STARTS + 1
 
 
-def _from(fit: Fit, start: np.ndarray, reached: list[np.ndarray], first: Refusal | None) -> Nearest | None:
-    """Return the search from a start, over growing parts of a motion; None where it joins one that was made.
-    reached: x after the first part of the searches so far, to which this one's is added."""
-    parts = _parts(fit)
-    for at, part in enumerate((*parts, fit)):
-        rough = ROUGH if part is not fit else {"smallest": ENOUGH} if parts else {}
-        found = part.search(start, first if at == 0 else None, **rough)
-        start = found.x
-        if parts and at == 0:
-            if any(np.abs(start - x).max() < ALIKE for x in reached):
+def _search(fit: Fit, start: np.ndarray, earlier: list[np.ndarray], check: Refusal | None) -> Nearest | None:
+    """Return the search from a start, over growing parts of a motion, or None if it reaches an earlier
+    search's x. earlier: x after the first part of each search so far; this search adds its own."""
+    parts = _split_record(fit)
+    for index, part in enumerate((*parts, fit)):
+        options = ROUGH if part is not fit else {"smallest": ENOUGH} if parts else {}
+        result = part.search(start, check if index == 0 else None, **options)
+        start = result.x
+        if parts and index == 0:
+            if any(np.abs(start - x).max() < ALIKE for x in earlier):
                 return None
-            reached.append(start)
-    return found
+            earlier.append(start)
+    return result
 
 
-def _parts(fit: Fit) -> list[Fit]:
-    """Return the fits of parts of a motion that are made before the whole."""
+def _split_record(fit: Fit) -> list[Fit]:
+    """Return the fits of parts of a motion that precede the fit of the whole."""
     measured = fit.measured
     if not isinstance(measured, Displacements) or measured.time is None:
         return []
     parts = [measured.until(share * float(measured.time.max())) for share in PARTS]
-    enough = FEWEST * len(fit.unknowns)
-    return [replace(fit, measured=part) for part in parts if part.measured.sum() >= enough]
+    needed = FEWEST * len(fit.unknowns)
+    return [replace(fit, measured=part) for part in parts if part.measured.sum() >= needed]

@@ -1,32 +1,32 @@
-"""The inverse question: parameters of a scene from what was measured of its sheet.
+"""Identification: parameters of a scene from measurements of its sheet.
 
 Least squares in the unknowns' x (`comparisons.identification.unknowns`),
 
     min Σ r²,   r = u_model − u_measured at every measured component, or
                 r = n · (φ_model − P) + offset, the distance along the surface's normal, at every cloud point,
 
-by a trust region (SciPy's `least_squares`), from the values that the scene gives. Every measured component
-weighs the same: the noise is taken to be independent and equally large in all of them. Then x ± t s √C_ii,
-with s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. Where standard deviations are given
-residuals are weighted by their inverse, and x ± 1.96 max(s, σ) √C_ii is one, of as many unknowns as numbers
-too. It does not know of the model's own
-errors, but for those of its grid or mesh, which are added to it.
+by a trust region (SciPy's `least_squares`), from the values that the scene gives. The noise is taken to be
+independent and equally large in all measured components, which have equal weights. Then x ± t s √C_ii, with
+s² = r·r/(m − n), C = (Jᵀ J)⁻¹ and Student's t, is a 95 % interval. If standard deviations σ are given,
+residuals are weighted by their inverse, and the interval is x ± 1.96 max(s, σ) √C_ii, which exists for as
+many unknowns as numbers too. The interval contains the error of the grid or mesh, and no other error of the
+model.
 
-The search is made from several starts, and over growing parts of a motion (`fit`); what is left is tested
+The search is made from several starts, and over growing parts of a motion (`fit`); its residuals are tested
 for being noise and for rows that do not fit (`residuals`).
 
-A pull of PULL towards the scene's own values holds what the data do not see at all (only E/ρ shows in a sheet
-under its own weight), or rounding would walk off with it; what they see it moves by PULL², 1e-12.
-Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
+A pull of PULL towards the scene's own values fixes combinations of unknowns without influence on the data (E
+and ρ in a sheet under its own weight, where only E/ρ shows), which rounding would change at random; it moves
+others by PULL², 1e-12. Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 
 A lattice's cells must be so fine that the grid moves the unknowns less than the noise does. A Gauss–Newton
-step on cells half as large says by how much those would move an unknown. The grid's error is of second order
-inside the sheet and nearer to first at held edges (E of the shell's own data: 0.94 % low on 9 masses a side,
-0.44 % on 17), so that GRID_ERROR times the step bounds what the grid does to the value; half-widths of
-intervals contain it. Where cells are not given, the fit is made again on cells half as large until the step,
-or half of the last one, is below SHARE of the noise's half-width, or below NEGLIGIBLE. The budget is a size,
-not a time, so that the answer does not depend on the machine: FITTED and CHECKED unknowns take a second or
-two a solve. Where it ends the search, the next step is taken to be half the last.
+step on cells half as large estimates the grid's effect. The grid's error is of second order inside the sheet
+and nearer to first at held edges (E of the shell's own data: 0.94 % low on 9 masses a side, 0.44 % on 17), so
+that GRID_ERROR times the step is a bound of the grid's error; half-widths of intervals contain it. If cells
+are not given, the fit is made again on cells half as large until the step, or half of the last one, is below
+SHARE of the noise's half-width, or below NEGLIGIBLE. The budget is a size, not a time, so that the answer
+does not depend on the machine: FITTED and CHECKED unknowns take a second or two a solve. When it ends the
+search, the next step is taken to be half the last.
 """
 
 from __future__ import annotations
@@ -70,12 +70,11 @@ FITTED, CHECKED = 20_000, 30_000  # unknowns of a lattice that is fitted, and of
 def refined(
     scene: Scene, lattice: Lattice, fit: Fit, best: Nearest, free: bool
 ) -> tuple[Fit, Nearest, np.ndarray, list[tuple[int, ...]]]:
-    """Return the fit on cells that are small enough where the grid is free, else on those given, the best of
-    its searches, by how much x changes on cells half as large, nan where that is not known, and all grids
-    that were fitted, (nx, ny, layers) each.
+    """Return the fit on the final grid, its best search, the change of x on cells half as large, nan if
+    unknown, and all grids that were fitted, (nx, ny, layers) each. Cells are halved until they are small
+    enough if the grid is free.
 
-    lattice: as it was requested; fit, best: on the first grid.
-    """
+    lattice: as it was requested; fit, best: on the first grid."""
     names = [u.name for u in fit.unknowns]
     grids = [tuple(fit.model.settings["grid"])]
     step = np.full(len(names), np.nan)
@@ -84,46 +83,44 @@ def refined(
         finer = (2 * nx - 1, 2 * ny - 1, layers)
         room = has_room(scene, Lattice(finer))
         unknowns = 3 * finer[0] * finer[1] * layers
-        known = identifiability(names, best.slopes, best.residuals, fit.deviation)
-        enough = np.fmax(SHARE * np.array([*known.half_widths.values()]), NEGLIGIBLE)
-        foretold = step / 2.0  # nan on the first grid
-        if not room or (len(grids) > 1 and (unknowns > CHECKED or (np.abs(foretold) <= enough).all())):
-            return fit, best, foretold, grids
-        settings = fit.model.settings
-        chosen = {
-            "calibration": settings["calibration"],
-            "grading": of_settings(settings, scene.sheet.lengths),
-        }
-        halved = lattice_model(scene, replace(lattice, grid=finer, **chosen))
+        intervals = identifiability(names, best.slopes, best.residuals, fit.deviation)
+        limits = np.fmax(SHARE * np.array([*intervals.half_widths.values()]), NEGLIGIBLE)
+        expected = step / 2.0  # nan on the first grid
+        if not room or (len(grids) > 1 and (unknowns > CHECKED or (np.abs(expected) <= limits).all())):
+            return fit, best, expected, grids
+        settings, grading = fit.model.settings, of_settings(fit.model.settings, scene.sheet.lengths)
+        spec = replace(lattice, grid=finer, calibration=settings["calibration"], grading=grading)
+        finer_model = lattice_model(scene, spec)
         context().progress(f"looking at cells half as large, {finer[0]} × {finer[1]} masses")
-        on_halved = replace(fit, model=replace(halved, settings={**settings, "grid": list(finer)}))
-        step = _step(on_halved, best.x)
-        small = (np.abs(step) <= enough).all()
-        if not free or unknowns > FITTED or not np.isfinite(step).all() or small:
+        finer_fit = replace(fit, model=replace(finer_model, settings={**settings, "grid": list(finer)}))
+        step = _solve_step(finer_fit, best.x)
+        is_small = (np.abs(step) <= limits).all()
+        if not free or unknowns > FITTED or not np.isfinite(step).all() or is_small:
             return fit, best, step, grids
         try:
-            fit, best = on_halved, on_halved.search(best.x + step)
+            fit, best = finer_fit, finer_fit.search(best.x + step)
         except NotReached:
             return fit, best, step, grids
         grids.append(finer)
 
 
 def mesh_error(scene: Scene, reference: Elements, fit: Fit, best: Nearest) -> np.ndarray:
-    """Return what a reference's elements do to x at most, by a step on elements twice as large: the error is
-    taken to fall in first order, the least that it does; nan where these have no answer."""
+    """Return a bound of the error of x by a reference's mesh, from a step on elements twice as large. The
+    error is taken to fall in first order, the slowest possible. Returns nan without an equilibrium on larger
+    elements."""
     elements = reference.counts(scene)[:2]
     coarse = (elements[0] + 1) // 2, (elements[1] + 1) // 2
-    longer = (prod(elements) / prod(coarse)) ** 0.5
-    if longer == 1.0:
+    side_ratio = (prod(elements) / prod(coarse)) ** 0.5
+    if side_ratio == 1.0:
         return np.full(len(best.x), np.nan)
     context().progress(f"looking at larger elements, {coarse[0]} × {coarse[1]}")
-    other = reference_model(resolve(scene, reference.but(count=coarse)))
-    step = _step(replace(fit, model=replace(fit.model, predict=other.predict)), best.x)
-    return np.abs(step) / (longer - 1.0)
+    coarse_model = reference_model(resolve(scene, reference.but(count=coarse)))
+    step = _solve_step(replace(fit, model=replace(fit.model, predict=coarse_model.predict)), best.x)
+    return np.abs(step) / (side_ratio - 1.0)
 
 
-def _step(fit: Fit, x: np.ndarray) -> np.ndarray:
-    """Return the Gauss–Newton step of x, of what the data see; nan where the model has no answer."""
+def _solve_step(fit: Fit, x: np.ndarray) -> np.ndarray:
+    """Return the Gauss–Newton step of x in determined directions; nan if the model has no equilibrium."""
     try:
         residuals, slopes = fit.at(x)
     except NotReached:
@@ -149,113 +146,113 @@ def identify(
     uncertainty: float | None = None,
     refine: bool = True,
 ) -> Identification | FieldIdentification:
-    """Return the unknowns of these names, from measurements or a file of them (`measurements.read`); of
-    young=field, thickness=field or density=field that of every cell (`field`).
+    """Return values and intervals of unknowns of a scene, from measurements or a file of them
+    (`measurements.read`); of young=field, thickness=field or density=field the values of all cells (`field`).
 
     Unless the lattice has a grid, cells become smaller until the grid moves the unknowns less than the noise
     does; its grading may be "auto", by the scene's own values. elements: of a reference; law: its law of
-    strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: where a cloud was taken along the surface's
-    normal, 0 on the mid-surface; uncertainty [m]: standard deviation of every measured number. refine:
-    whether to look at other cells or elements too (not for motions).
+    strain (`sheetbench.choices.STRAIN_LAWS`); offset [m]: distance of a cloud from the mid-surface along the
+    normal; uncertainty [m]: standard deviation of every measured number. refine: whether to estimate the
+    error of the grid or mesh on other cells or elements (not for motions).
 
     Raises BadInput for names, models and data that contradict each other, and NotReached where the model has
-    no stable answer with the scene's own values.
-    """
+    no stable answer with the scene's own values."""
     scene = scene_of(scene)
     require_static(scene)
     measured = read(Path(measured), scene) if isinstance(measured, str | Path) else measured
-    measured = _on_sheet(_with_deviation(measured, uncertainty), scene)
+    measured = _snap_to_sheet(_add_deviation(measured, uncertainty), scene)
     names = items(unknown) if isinstance(unknown, str) else unknown
-    if fields := [name for name in names if name.endswith(SUFFIX)]:
+    if field_names := [name for name in names if name.endswith(SUFFIX)]:
         if model != Lattice.NAME or len(names) > 1:
-            raise BadInput(f"unknown = '{fields[0]}': a field alone, of the lattice")
-        chosen = resolve(scene, lattice, own=False)
-        return identify_field(chosen, measured, fields[0].removesuffix(SUFFIX))
+            raise BadInput(f"unknown = '{field_names[0]}': a field alone, of the lattice")
+        resolved = resolve(scene, lattice, own=False)
+        return identify_field(resolved, measured, field_names[0].removesuffix(SUFFIX))
     unknowns = tuple(unknown_of(scene, name) for name in names)
     reference = None
-    of_reference = {"elements": elements, "law": law}
+    reference_settings = {"elements": elements, "law": law}
     if model != Lattice.NAME:
-        reference = Elements.given(model, of_reference)
+        reference = Elements.given(model, reference_settings)
         require_choice("model", reference.kind, MODELS)
         require_effect(f"with the model {reference.kind}", lattice.settings)
-        fitted = reference_model(resolve(scene, reference))
+        fitted_model = reference_model(resolve(scene, reference))
     else:
-        require_effect("with the model lumped", of_reference)
+        require_effect("with the model lumped", reference_settings)
         _require_springs(scene, lattice, [u.name for u in unknowns])
-        fitted = lattice_model(scene, lattice)
-    fit = Fit(measured, unknowns, fitted, offset)
-    _check(scene, fit)
-    return _answer(scene, fit, lattice if reference is None else reference, refine)
+        fitted_model = lattice_model(scene, lattice)
+    fit = Fit(measured, unknowns, fitted_model, offset)
+    _require_determinable(fit)
+    return _assemble_answer(scene, fit, lattice if reference is None else reference, refine)
 
 
-def _answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> Identification:
-    """Return the answer; spec: of the model, as it was requested."""
+def _assemble_answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: bool) -> Identification:
+    """Return the identification of a fit; spec: the model as it was requested."""
     unknowns, measured = fit.unknowns, fit.measured
     refine = refine and measured.time is None
-    odd: tuple[Outlier, ...] = ()
+    outlying: tuple[Outlier, ...] = ()
 
-    def enough(one: Nearest) -> bool:
-        nonlocal odd
-        odd = outliers(fit, one)
-        return bool(odd) or explained(one.noise, runs(measured, fit.per_point(one.residuals)), fit.deviation)
+    def suffices(result: Nearest) -> bool:
+        nonlocal outlying
+        outlying = outliers(fit, result)
+        signs = runs(measured, fit.per_point(result.residuals))
+        return bool(outlying) or explained(result.noise, signs, fit.deviation)
 
-    best, starts = nearest(fit, enough)
-    step = bound = np.full(len(unknowns), np.nan)
+    best, starts = nearest(fit, suffices)
+    step = model_error = np.full(len(unknowns), np.nan)
     grids: list[Any] = [fit.model.settings.get("grid")]
     free = isinstance(spec, Lattice) and spec.grid is None and not (scene.springs and scene.springs.grid)
     if refine and isinstance(spec, Lattice):
         fit, best, step, grids = refined(scene, spec, fit, best, free)
-        bound = GRID_ERROR * np.abs(step)
+        model_error = GRID_ERROR * np.abs(step)
     elif refine and isinstance(spec, Elements):
-        bound = mesh_error(scene, spec, fit, best)
-    known = identifiability([u.name for u in unknowns], best.slopes, best.residuals, fit.deviation)
-    found = {
-        u.name: _estimate(u, x, known.half_widths[u.name], *steps)
-        for u, x, *steps in zip(unknowns, best.x, bound.tolist(), step.tolist(), strict=True)
+        model_error = mesh_error(scene, spec, fit, best)
+    intervals = identifiability([u.name for u in unknowns], best.slopes, best.residuals, fit.deviation)
+    estimates = {
+        u.name: _make_estimate(u, x, intervals.half_widths[u.name], *steps)
+        for u, x, *steps in zip(unknowns, best.x, model_error.tolist(), step.tolist(), strict=True)
     }
     residuals = fit.per_point(best.residuals)
-    left = runs(measured, residuals)
+    signs = runs(measured, residuals)
     warnings = [
-        *remarks.on_start(fit, best, found),
-        *(f"{one}. Is it a mistake? Empty its cells for the values without it" for one in odd),
-        *known.warnings,
-        *([] if odd else remarks.on_residuals(fit, best, left, starts)),
+        *remarks.on_start(fit, best, estimates),
+        *(f"{row}. Is it a mistake? Empty its cells for the values without it" for row in outlying),
+        *intervals.warnings,
+        *([] if outlying else remarks.on_residuals(fit, best, signs, starts)),
         *remarks.on_ties(fit, best),
         *remarks.on_bounds(fit, best),
-        *remarks.on_grid(found, spec.model, refine, fit.model.settings.get("grid") if free else None),
+        *remarks.on_grid(estimates, spec.model, refine, fit.model.settings.get("grid") if free else None),
     ]
     return Identification(
         scene=scene,
         measured=measured,
         model=spec.model,
         settings=fit.model.settings,
-        unknowns=found,
+        unknowns=estimates,
         residuals=residuals,
         noise=measured.scale * best.noise,
         relative=float(np.nanmax(np.abs(residuals))) / measured.scale,
         evaluations=best.evaluations,
         converged=best.converged,
         warnings=tuple(warnings),
-        runs=left,
-        explained=not odd and explained(best.noise, left, fit.deviation),
+        runs=signs,
+        explained=not outlying and explained(best.noise, signs, fit.deviation),
         starts=starts,
-        grids=tuple(tuple(one) for one in grids if one),
-        outliers=odd,
+        grids=tuple(tuple(grid) for grid in grids if grid),
+        outliers=outlying,
     )
 
 
-def _estimate(u: Unknown, x: float, noise: float, bound: float, step: float) -> Estimate:
-    """Return an unknown's value at x; noise: half-width of its interval; bound: what the grid or mesh does to
-    x at most, step: of x on cells half as large; nan where they are not known."""
-    known = not np.isnan(noise)
+def _make_estimate(u: Unknown, x: float, half_width: float, model_error: float, step: float) -> Estimate:
+    """Return an unknown's value at x; half_width: of its interval by noise; model_error: bound of the
+    error of x by the grid or mesh; step: of x on cells half as large; nan where they are not known."""
+    has_interval = not np.isnan(half_width)
     return Estimate(
         value=u.value(x),
-        interval=u.interval(x, noise + float(np.nan_to_num(bound))) if known else None,
+        interval=u.interval(x, half_width + float(np.nan_to_num(model_error))) if has_interval else None,
         start=u.start,
         unit=u.unit,
         refined=u.value(float(np.clip(x + step, *u.bounds()))) if np.isfinite(step) else None,
-        noise_interval=u.interval(x, noise) if known else None,
-        determined=not np.isinf(noise),
+        noise_interval=u.interval(x, half_width) if has_interval else None,
+        determined=not np.isinf(half_width),
     )
 
 
@@ -270,16 +267,16 @@ def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> No
         )
 
 
-def _check(scene: Scene, fit: Fit) -> None:
-    """Raise BadInput for measurements that say nothing of the unknowns, or are of no place on the sheet."""
+def _require_determinable(fit: Fit) -> None:
+    """Raise BadInput for unknowns that the measurements cannot determine, and an offset of displacements."""
     names, measured = [u.name for u in fit.unknowns], fit.measured
     repeated = {name for name in names if names.count(name) > 1}
     if not names or repeated:
         raise BadInput(f"unknown = '{','.join(names)}': name each once, and at least one")
-    still = [name for name in names if name in DAMPING or name.startswith(VISCOUS)]
-    if still and measured.time is None:
+    dynamic = [name for name in names if name in DAMPING or name.startswith(VISCOUS)]
+    if dynamic and measured.time is None:
         raise BadInput(
-            f"unknown = '{still[0]}': an equilibrium does not depend on it; measure a motion, "
+            f"unknown = '{dynamic[0]}': an equilibrium does not depend on it; measure a motion, "
             "a CSV with a column time [s]"
         )
     if fit.offset and not isinstance(measured, Surface):
@@ -293,9 +290,9 @@ def _check(scene: Scene, fit: Fit) -> None:
         raise BadInput(f"{numbers} cannot determine {len(names)} unknowns")
 
 
-def _with_deviation(measured: Measured, uncertainty: float | None) -> Measured:
-    """Return the measurements with one standard deviation [m] of every number, where it is given. Raises
-    BadInput where it is not above 0, and where the file has a column of them."""
+def _add_deviation(measured: Measured, uncertainty: float | None) -> Measured:
+    """Return the measurements with one standard deviation [m] of every number, if it is given. Raises
+    BadInput unless it is above 0, and if the file has a column of standard deviations."""
     if uncertainty is None:
         return measured
     if not uncertainty > 0.0:
@@ -305,9 +302,10 @@ def _with_deviation(measured: Measured, uncertainty: float | None) -> Measured:
     return replace(measured, deviation=np.full(len(measured.points), uncertainty))
 
 
-def _on_sheet(measured: Measured, scene: Scene) -> Measured:
-    """Return the measurements with points that lie off the sheet by rounding alone, within ON_EDGE of its
-    longer side, on its edge. Raises BadInput for others, and for a cloud of a sheet that is no rectangle."""
+def _snap_to_sheet(measured: Measured, scene: Scene) -> Measured:
+    """Return the measurements, with points that are off the sheet by rounding alone, within ON_EDGE of its
+    longer side, moved to its edge. Raises BadInput for others, and for a cloud of a sheet that is no
+    rectangle."""
     if isinstance(measured, Surface):
         if scene.pierced:
             raise BadInput(
@@ -316,9 +314,9 @@ def _on_sheet(measured: Measured, scene: Scene) -> Measured:
             )
         return measured
     points = nearest_on_sheet(scene, measured.points)
-    off = np.hypot(*(points - measured.points).T) > ON_EDGE * max(scene.sheet.lengths)
-    if off.any():
-        row = int(np.argmax(off))
+    outside = np.hypot(*(points - measured.points).T) > ON_EDGE * max(scene.sheet.lengths)
+    if outside.any():
+        row = int(np.argmax(outside))
         x, y = measured.points[row].tolist()
         raise BadInput(
             f"{measured.name_of(row)}: x, y = {x:g}, {y:g} is off the sheet: 0 ≤ x ≤ "

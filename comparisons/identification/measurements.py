@@ -3,15 +3,15 @@
 CSV (`comparisons.identification.columns`), in metres and in the scene's axes, with the columns
 
     x,y,ux,uy,uz    plan point on the flat sheet, then its displacement; a component may be left empty
-    x,y,uz          the same of deflections alone
+    x,y,uz          plan point on the flat sheet, then its deflection
     x,y,z           points of the deformed surface, a height map or a scan
 
-A further column sd is the standard deviation of the numbers of each row. In the place of x,y a column probe
-may name probes of the scene. With a further column time [s] displacements are samples of a motion from rest.
-Other columns are passed over.
+A further column sd is the standard deviation of the numbers of each row. A column probe with names of probes
+of the scene may replace x,y. Displacements with a further column time [s] are samples of a motion from rest.
+Other columns are ignored.
 
-VTP or PLY: points (x, y, z) [m] of the deformed surface, in the scene's axes. Which material point each of
-them is need not be known.
+VTP or PLY: points (x, y, z) [m] of the deformed surface, in the scene's axes. Their material points need not
+be known.
 
 C3D: markers of a motion capture that have the names of probes, in the scene's axes; displacements are from
 the first frame, which is the sheet at rest at time 0.
@@ -67,7 +67,7 @@ class Displacements:
 
     @property
     def measured(self) -> np.ndarray:
-        """(n, 3) bool."""
+        """Whether each component was measured, (n, 3)."""
         return np.isfinite(self.displacement)
 
     @property
@@ -101,7 +101,7 @@ class Displacements:
 
 @dataclass(frozen=True)
 class Surface:
-    """points: (n, 3) [m] of the deformed surface; source, deviation: as of `Displacements`."""
+    """Points of the deformed surface (n, 3) [m]; source, deviation: as of `Displacements`."""
 
     points: np.ndarray
     source: str = "measured"
@@ -131,75 +131,75 @@ def typical_deviation(measured: Measured) -> float:
 
 
 def read(path: Path, scene: Scene) -> Measured:
-    """Return the measurements of a file. Raises BadInput naming the file and what is wrong in it."""
+    """Return the measurements of a file. Raises BadInput naming the file and the fault."""
     kind = path.suffix.lower()
     if kind == ".c3d":
-        measured: Measured = _markers(path, scene)
+        measured: Measured = _read_marker_file(path, scene)
     else:
-        measured = _cloud(path, scene.sheet) if kind in CLOUDS else _table(path, scene)
+        measured = _read_cloud(path, scene.sheet) if kind in CLOUDS else _read_table(path, scene)
     if measured.scale == 0.0:
         raise BadInput(f"{path}: nothing moved: every displacement is 0")
     return measured
 
 
-def _markers(path: Path, scene: Scene) -> Displacements:
-    """Rows of the markers that have names of probes, frame by frame."""
-    found = read_markers(path)
-    of_probe = {_plain(name): point for name, point in scene.probes.items()}
-    named = [(i, point) for i, label in enumerate(found.labels) if (point := of_probe.get(_plain(label)))]
-    if not named:
+def _read_marker_file(path: Path, scene: Scene) -> Displacements:
+    """Return rows of the markers that have names of probes, frame by frame."""
+    markers = read_markers(path)
+    probes = {_fold_label(name): point for name, point in scene.probes.items()}
+    matches = [(i, probes[key]) for i, key in enumerate(map(_fold_label, markers.labels)) if key in probes]
+    if not matches:
         raise BadInput(
-            f"{path}: markers {', '.join(found.labels)}; none has the name of a probe of scene "
+            f"{path}: markers {', '.join(markers.labels)}; none has the name of a probe of scene "
             f"'{scene.name}': {', '.join(scene.probes)}"
         )
-    moved = np.concatenate([found.position[i] - found.position[i, 0] for i, _ in named])
-    points = np.repeat([point for _, point in named], len(found.time), axis=0)
+    moved = np.concatenate([markers.position[i] - markers.position[i, 0] for i, _ in matches])
+    points = np.repeat([point for _, point in matches], len(markers.time), axis=0)
     _require_metres(moved, scene.sheet, [str(path)] * len(moved))
-    return Displacements(points, moved, np.tile(found.time, len(named)), str(path))
+    return Displacements(points, moved, np.tile(markers.time, len(matches)), str(path))
 
 
-def _plain(label: str) -> str:
+def _fold_label(label: str) -> str:
     return "".join(label.lower().split())
 
 
-def _table(path: Path, scene: Scene) -> Measured:
+def _read_table(path: Path, scene: Scene) -> Measured:
     columns = read_columns(path)
-    moved = [name for name in MOVED if name in columns.names]
-    if "z" in columns.names and not moved and set(PLACE) <= set(columns.names):
-        return _heights(path, columns, scene.sheet)
-    named = "probe" in columns.names and not set(PLACE) & set(columns.names)
-    needed = (*(() if named else PLACE), *(MOVED if moved != ["uz"] else ()))
-    missing = [name for name in needed if name not in columns.names]
+    components = [name for name in MOVED if name in columns.names]
+    if "z" in columns.names and not components and set(PLACE) <= set(columns.names):
+        return _read_heights(path, columns, scene.sheet)
+    by_name = "probe" in columns.names and not set(PLACE) & set(columns.names)
+    required = (*(() if by_name else PLACE), *(MOVED if components != ["uz"] else ()))
+    missing = [name for name in required if name not in columns.names]
     if missing:
         raise BadInput(
             f"{path}: column {', '.join(missing)} missing; the header is {','.join(PLACE + MOVED)}, x,y,uz, "
             "or x,y,z of points of the deformed surface (metres)"
         )
     rows, lines = columns.rows, tuple(row.where for row in columns.rows)
-    points = [_probe(row, scene) if named else [row.number(name) for name in PLACE] for row in rows]
-    moves = [[row.measured(name) if name in columns.names else np.nan for name in MOVED] for row in rows]
-    displacement = np.array(moves, dtype=float).reshape(-1, 3)
+    points = [_find_probe(row, scene) if by_name else [row.number(name) for name in PLACE] for row in rows]
+    values = [[row.measured(name) if name in columns.names else np.nan for name in MOVED] for row in rows]
+    displacement = np.array(values, dtype=float).reshape(-1, 3)
     time = columns.numbers("time") if "time" in columns.names else None
     if not np.isfinite(displacement).any():
         raise BadInput(f"{path}: no displacement in it")
     _require_metres(displacement, scene.sheet, lines)
     if time is not None:
         require_flat_start(path, time, displacement)
-    return Displacements(np.array(points), displacement, time, str(path), lines, _deviation(columns))
+    return Displacements(np.array(points), displacement, time, str(path), lines, _read_deviation(columns))
 
 
-def _heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:
-    """Points of the surface where z is measured."""
+def _read_heights(path: Path, columns: Columns, sheet: Sheet) -> Surface:
+    """Return the points of the surface with a measured z."""
     if "time" in columns.names:
         raise BadInput(f"{path}: column time: a motion is measured as ux,uy,uz of marked points")
-    found = [[row.number("x"), row.number("y"), row.measured("z")] for row in columns.rows]
-    points, deviation = np.array(found, dtype=float).reshape(-1, 3), _deviation(columns)
+    rows = [[row.number("x"), row.number("y"), row.measured("z")] for row in columns.rows]
+    points, deviation = np.array(rows, dtype=float).reshape(-1, 3), _read_deviation(columns)
     measured = np.isfinite(points[:, 2])
-    surface = _surface(path, points[measured], sheet)
+    surface = _make_surface(path, points[measured], sheet)
     return surface if deviation is None else replace(surface, deviation=deviation[measured])
 
 
-def _deviation(columns: Columns) -> np.ndarray | None:
+def _read_deviation(columns: Columns) -> np.ndarray | None:
     """Return the column sd (n,) [m], None where there is none. Raises BadInput unless all are above 0."""
     if "sd" not in columns.names:
         return None
@@ -209,7 +209,7 @@ def _deviation(columns: Columns) -> np.ndarray | None:
     return deviation
 
 
-def _probe(row: Row, scene: Scene) -> list[float]:
+def _find_probe(row: Row, scene: Scene) -> list[float]:
     if row.cells["probe"] not in scene.probes:
         raise row.refused("probe", f"scene '{scene.name}' has {', '.join(scene.probes)}")
     return list(scene.probes[row.cells["probe"]])
@@ -218,13 +218,12 @@ def _probe(row: Row, scene: Scene) -> list[float]:
 def require_flat_start(path: Path, time: np.ndarray, displacement: np.ndarray) -> None:
     """Raise BadInput where a motion does not begin at time 0, or a sample there is moved by more than noise.
 
-    time: (n,) [s]; displacement: (n, 3) [m], nan where not measured.
-    """
+    time: (n,) [s]; displacement: (n, 3) [m], nan where not measured."""
     if time.min() < 0.0 or time.max() == 0.0:
         raise BadInput(f"{path}: time: the motion starts at 0 and goes on to later times")
-    moved = np.nan_to_num(displacement)
-    allowed = STILL * float(np.abs(moved).max(initial=0.0))
-    first = moved[time == 0.0]
+    filled = np.nan_to_num(displacement)
+    allowed = STILL * float(np.abs(filled).max(initial=0.0))
+    first = filled[time == 0.0]
     if np.abs(first).max(initial=0.0) > allowed:
         row, axis = np.unravel_index(np.abs(first).argmax(), first.shape)
         raise BadInput(
@@ -233,23 +232,25 @@ def require_flat_start(path: Path, time: np.ndarray, displacement: np.ndarray) -
         )
 
 
-def _require_metres(moved: np.ndarray, sheet: Sheet, where: Sequence[str]) -> None:
-    """moved: (n, 3), nan where not measured; where: what names each row."""
-    sizes = np.abs(np.nan_to_num(moved)).max(axis=1)
+def _require_metres(displacement: np.ndarray, sheet: Sheet, names: Sequence[str]) -> None:
+    """Raise BadInput for displacements too large to be in metres.
+
+    displacement: (n, 3), nan where not measured; names: name of each row in the message."""
+    sizes = np.abs(np.nan_to_num(displacement)).max(axis=1)
     row, side = int(sizes.argmax()), max(sheet.lengths)
     if sizes[row] > FARTHEST * side:
         raise BadInput(
-            f"{where[row]}: a displacement of {sizes[row]:g} m on a sheet of {side:g} m: displacements are "
+            f"{names[row]}: a displacement of {sizes[row]:g} m on a sheet of {side:g} m: displacements are "
             "in metres"
         )
 
 
-def _cloud(path: Path, sheet: Sheet) -> Surface:
+def _read_cloud(path: Path, sheet: Sheet) -> Surface:
     if not path.is_file():
         raise BadInput(f"{path}: no such file")
     try:
         with np.errstate(invalid="ignore"):  # a damaged file's numbers are looked at below
-            points = read_points(path) if path.suffix.lower() == ".ply" else _vtp(path)
+            points = read_points(path) if path.suffix.lower() == ".ply" else _read_vtp(path)
     except BadInput:
         raise
     except Exception as error:  # VTK's reader has no error of its own for a damaged file
@@ -257,10 +258,10 @@ def _cloud(path: Path, sheet: Sheet) -> Surface:
     finite = np.isfinite(points).all(axis=1)
     if not finite.all():
         raise BadInput(f"{path}: point {int(np.argmin(finite))} is not finite")
-    return _surface(path, points, sheet)
+    return _make_surface(path, points, sheet)
 
 
-def _vtp(path: Path) -> np.ndarray:
+def _read_vtp(path: Path) -> np.ndarray:
     import pyvista
     from vtkmodules.vtkCommonCore import vtkObject
 
@@ -272,13 +273,13 @@ def _vtp(path: Path) -> np.ndarray:
         vtkObject.SetGlobalWarningDisplay(chatty)
 
 
-def _surface(path: Path, points: np.ndarray, sheet: Sheet) -> Surface:
+def _make_surface(path: Path, points: np.ndarray, sheet: Sheet) -> Surface:
     if not len(points):
         raise BadInput(f"{path}: no points in it")
     centre = np.array([*sheet.lengths, 0.0]) / 2.0
-    away = np.abs(points - centre).max(axis=1)
-    if away.max() > FARTHEST * max(sheet.lengths):
-        worst = points[int(np.argmax(away))]
+    distances = np.abs(points - centre).max(axis=1)
+    if distances.max() > FARTHEST * max(sheet.lengths):
+        worst = points[int(np.argmax(distances))]
         raise BadInput(
             f"{path}: point ({', '.join(f'{c:g}' for c in worst)}) is off the sheet; points are in metres, "
             "in the scene's axes"

@@ -1,9 +1,9 @@
-"""The model that is fitted: what it has at the measured points, and its slopes by the unknowns.
+"""Fitted models: displacements at the measured points, and their slopes by the unknowns.
 
 statics                         derivatives of the equilibrium, a solution with its factors each; of the
                                 solid, which has none, central differences of whole solutions
-motion from rest                derivatives along the run of a lattice that touches nothing and has no chains,
-                                by what leaves its supports alone; else central differences of whole runs;
+motion from rest                derivatives along the run of a lattice without obstacles and actuators, by
+                                unknowns that do not move supports; else central differences of whole runs;
                                 cubic in time between samples
 """
 
@@ -37,12 +37,12 @@ STEPS_PER_PERIOD = 100  # of a reference, fixed: frequencies within (2π/100)²/
 
 
 class NotReached(NoEquilibrium):
-    """The model has no answer here; the text says how it ended."""
+    """No equilibrium at an x of the unknowns, or a run that ended early; the text is its status."""
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """displacement: (n, 3) [m]; slopes: by x of each unknown, (n, 3) [m], in their order."""
+    """Displacements (n, 3) [m] at the measured points, and their slopes (n, 3) [m] by x of each unknown."""
 
     displacement: np.ndarray
     slopes: list[np.ndarray]
@@ -53,33 +53,32 @@ Predictor = Callable[[Sequence[Unknown], np.ndarray, np.ndarray, np.ndarray | No
 
 @dataclass(frozen=True)
 class Model:
-    """settings: of the model; axes: the plan grid on which it gives its whole surface; predict: called with
-    unknowns, their x (see `comparisons.identification.unknowns`), plan points (n, 2) [m] and the times (n,)
-    [s] of a motion, None at rest. It raises NotReached where the model has no stable equilibrium, or its run
-    ended early."""
+    """A model to fit. axes: the plan grid of its whole surface; predict: called with unknowns, their x (see
+    `comparisons.identification.unknowns`), plan points (n, 2) [m] and the times (n,) [s] of a motion, None at
+    rest. It raises NotReached where the model has no stable equilibrium, or its run ended early."""
 
     settings: dict[str, Any]
     axes: tuple[np.ndarray, np.ndarray]
     predict: Predictor
 
 
-def lattice_model(scene: Scene, requested: Lattice) -> Model:
-    """Return the lattice requested, what it leaves open chosen by the scene's own values."""
+def lattice_model(scene: Scene, lattice: Lattice) -> Model:
+    """Return the requested lattice as a model to fit, open settings chosen by the scene's own values."""
     import lumped
 
-    chosen = resolve(scene, requested, own=False)
-    grading = fixed(chosen.spec.grading) or lines_on_shapes(scene, chosen.grid, chosen.spec)
+    resolved = resolve(scene, lattice, own=False)
+    grading = fixed(resolved.spec.grading) or lines_on_shapes(scene, resolved.grid, resolved.spec)
 
-    def run(here: Scene, end: float, names: Sequence[str] = ()) -> History:
+    def run(varied: Scene, end: float, names: Sequence[str] = ()) -> History:
         error = FOLLOWED_ERROR if names else MOTION_ERROR
-        return lumped.simulate(here, chosen.on(here).springs, end, error=error, sensitivities=names)
+        return lumped.simulate(varied, resolved.on(varied).springs, end, error=error, sensitivities=names)
 
-    axes = surface.plan_grid(scene.sheet.lengths, chosen.grid[:2])
-    return Model({**chosen.settings, **as_settings(grading)}, axes, partial(_predict, chosen, run))
+    axes = surface.plan_grid(scene.sheet.lengths, resolved.grid[:2])
+    return Model({**resolved.settings, **as_settings(grading)}, axes, partial(_predict, resolved, run))
 
 
 def reference_model(model: Resolved[Elements]) -> Model:
-    """Return a finite-element reference."""
+    """Return a finite-element reference as a model to fit."""
     import fem_reference
 
     scene, options = model.scene, model.spec.options
@@ -90,10 +89,10 @@ def reference_model(model: Resolved[Elements]) -> Model:
         lowest = fem_reference.modes(scene, "plate", elements=2, count=1).frequencies[0]
         return float(1.0 / (STEPS_PER_PERIOD * lowest))
 
-    def run(here: Scene, end: float) -> History:
+    def run(varied: Scene, end: float) -> History:
         steps = {"step": step(), "every": step()}
         return fem_reference.simulate(
-            here, model.spec.model, end, elements=(along_x, along_y), **steps, **options
+            varied, model.spec.model, end, elements=(along_x, along_y), **steps, **options
         )
 
     axes = surface.plan_grid(scene.sheet.lengths, (2 * along_x + 1, 2 * along_y + 1))
@@ -110,32 +109,31 @@ def _predict(
 ) -> Prediction:
     names = [u.name for u in unknowns]
     if time is not None:
-        others = model.scene.actuators or model.scene.obstacles or not isinstance(model.spec, Lattice)
-        if not others and not any(name.startswith(OF_SUPPORTS) for name in names):
-            here = set_in(model.scene, unknowns, x)
-            moved, *slopes = _moved(partial(run, names=names), time, here, points)
-            return Prediction(
-                moved, [of * u.slope(at) for of, u, at in zip(slopes, unknowns, x, strict=True)]
-            )
-        return _by_differences(
-            model.scene, lambda *at: _moved(run, time, *at)[0], MOTION_STEP, unknowns, x, points
+        direct = isinstance(model.spec, Lattice) and not (model.scene.actuators or model.scene.obstacles)
+        if direct and not any(name.startswith(OF_SUPPORTS) for name in names):
+            varied = set_in(model.scene, unknowns, x)
+            displacement, *slopes = _sample_motion(partial(run, names=names), time, varied, points)
+            slopes = [slope * u.slope(z) for slope, u, z in zip(slopes, unknowns, x, strict=True)]
+            return Prediction(displacement, slopes)
+        return _predict_by_differences(
+            model.scene, lambda *case: _sample_motion(run, time, *case)[0], MOTION_STEP, unknowns, x, points
         )
-    solution = _still(model, set_in(model.scene, unknowns, x))
+    solution = _solve_statics(model, set_in(model.scene, unknowns, x))
     if solution.sensitivity is None:
-        at_rest = lambda here, points: _still(model, here).displacement(points)  # noqa: E731
-        return _by_differences(model.scene, at_rest, STATIC_STEP, unknowns, x, points)
+        at_rest = lambda varied, points: _solve_statics(model, varied).displacement(points)  # noqa: E731
+        return _predict_by_differences(model.scene, at_rest, STATIC_STEP, unknowns, x, points)
     try:
-        of = solution.sensitivity()
-        slopes = [of.moved_at(points, u.name) * u.slope(at) for u, at in zip(unknowns, x, strict=True)]
+        sensitivity = solution.sensitivity()
+        slopes = [sensitivity.moved_at(points, u.name) * u.slope(z) for u, z in zip(unknowns, x, strict=True)]
     except (BadInput, NoEquilibrium) as error:
         raise NotReached(str(error)) from None
     return Prediction(solution.displacement(points), slopes)
 
 
-def _still(model: Resolved[Any], here: Scene) -> Solution:
-    """Return the equilibrium of a scene like the model's."""
+def _solve_statics(model: Resolved[Any], varied: Scene) -> Solution:
+    """Return the model's equilibrium of a scene with other values. Raises NotReached without a stable one."""
     try:
-        solution = solve(model.on(here))
+        solution = solve(model.on(varied))
     except (BadInput, NoEquilibrium) as error:
         raise NotReached(str(error)) from None
     if solution.status is not Status.CONVERGED:
@@ -150,25 +148,25 @@ def set_in(scene: Scene, unknowns: Sequence[Unknown], x: np.ndarray) -> Scene:
     return scene
 
 
-def _moved(
-    run_of: Callable[[Scene, float], History], time: np.ndarray, here: Scene, points: np.ndarray
+def _sample_motion(
+    simulate: Callable[[Scene, float], History], time: np.ndarray, varied: Scene, points: np.ndarray
 ) -> np.ndarray:
-    """Displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s], and derivatives
-    that the run has, (1 + parameters, n, 3)."""
+    """Return displacements (n, 3) [m] of a motion from rest, row i of the points at time[i] [s], and
+    derivatives of the run, (1 + parameters, n, 3)."""
     from scipy.interpolate import CubicSpline
 
-    places, which = np.unique(points, axis=0, return_inverse=True)
+    places, probe_of_row = np.unique(points, axis=0, return_inverse=True)
     probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
-    run = run_of(here.replace(probes=probes), float(time.max()))
+    run = simulate(varied.replace(probes=probes), float(time.max()))
     if run.status is not Status.CONVERGED:
         raise NotReached(f"{run.label}: {run.status}: {run.message}")
     series = [run.probes, *run.extra.get("sensitivities", {}).values()]
-    of_probes = np.array([[of[name] for name in probes] for of in series])
-    moved = CubicSpline(run.time, of_probes, axis=2)(time)
-    return np.asarray(moved[:, which.ravel(), np.arange(len(time))])
+    histories = np.array([[history[name] for name in probes] for history in series])
+    samples = CubicSpline(run.time, histories, axis=2)(time)
+    return np.asarray(samples[:, probe_of_row.ravel(), np.arange(len(time))])
 
 
-def _by_differences(
+def _predict_by_differences(
     scene: Scene,
     displacement: Callable[[Scene, np.ndarray], np.ndarray],
     step: float,
@@ -177,8 +175,8 @@ def _by_differences(
     points: np.ndarray,
 ) -> Prediction:
     slopes: list[np.ndarray] = []
-    for i, one in enumerate(unknowns):
-        ends = np.clip([x[i] - step, x[i] + step], *one.bounds())
+    for i, unknown in enumerate(unknowns):
+        ends = np.clip([x[i] - step, x[i] + step], *unknown.bounds())
         low, high = (
             displacement(set_in(scene, unknowns, np.where(np.arange(len(x)) == i, end, x)), points)
             for end in ends

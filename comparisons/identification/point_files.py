@@ -3,9 +3,9 @@
 C3D is read with `ezc3d`, an extra. A file may be another person's, and ezc3d does not survive damaged ones:
 reading is a program of its own (`c3d_reader`) with limits of time and memory, and its numbers are checked.
 
-Of a PLY file, in ASCII or binary, points are the element "vertex". Header lines up to `end_header`: `format`,
-then for each element `element NAME COUNT` with its `property TYPE NAME` or `property list TYPE TYPE NAME`.
-The elements' rows follow in that order. Source: Turk, The PLY Polygon File Format (1994).
+The points of a PLY file, in ASCII or binary, are its element "vertex". Header lines to `end_header`:
+`format`, then for each element `element NAME COUNT` with its `property TYPE NAME` or `property list TYPE TYPE
+NAME`. The elements' rows follow in that order. Source: Turk, The PLY Polygon File Format (1994).
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ MEMORY_MB, LARGEST = 4096, 2**28  # of address space; bytes of a file
 
 
 class Markers(NamedTuple):
-    """labels: (n,); position: (n, frames, 3) [m], nan where a marker was not seen; time: (frames,) [s]."""
+    """Markers of a motion capture: labels (n,); position (n, frames, 3) [m], nan where a marker was not seen;
+    time (frames,) [s]."""
 
     labels: tuple[str, ...]
     position: np.ndarray
@@ -49,21 +50,21 @@ def read_markers(path: Path) -> Markers:
     # -P: the modules beside the program are not its own
     command = [sys.executable, "-P", c3d_reader.__file__, str(path)]
     seconds = SECONDS + PER_MB * size / 2**20
-    ended = run(command, b"", seconds, MEMORY_MB, most=8 * LARGEST, variables=ONE_THREAD)
-    if ended.fault:
-        refused = ended.code == c3d_reader.REFUSED and not ended.stopped
-        raise BadInput(f"{path}: cannot be read as C3D: {ended.complaint if refused else ended.fault}")
-    with np.load(BytesIO(ended.answer)) as archive:
-        found = dict(archive)
-    labels, rate = tuple(map(str, found["labels"])), float(found["rate"])
-    position = found["position"].transpose(1, 2, 0)
+    process = run(command, b"", seconds, MEMORY_MB, most=8 * LARGEST, variables=ONE_THREAD)
+    if process.fault:
+        unreadable = process.code == c3d_reader.REFUSED and not process.stopped
+        raise BadInput(f"{path}: cannot be read as C3D: {process.complaint if unreadable else process.fault}")
+    with np.load(BytesIO(process.answer)) as archive:
+        content = dict(archive)
+    labels, rate = tuple(map(str, content["labels"])), float(content["rate"])
+    position = content["position"].transpose(1, 2, 0)
     if not (0.0 < rate < np.inf and position.size):
         raise BadInput(f"{path}: no markers over time in it")
     if len(labels) != len(position):
         raise BadInput(f"{path}: {len(labels)} labels of {len(position)} markers")
     if np.isinf(position).any():
         raise BadInput(f"{path}: a marker's position is no finite number")
-    scale = quantity(f"1 {found['unit']}", "m")
+    scale = quantity(f"1 {content['unit']}", "m")
     return Markers(labels, scale * position, np.arange(position.shape[1]) / rate)
 
 
@@ -77,36 +78,36 @@ ORDERS = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 @dataclass(frozen=True)
 class Element:
-    """An element's name, how many rows it has, and its properties (name, numpy type); a list has no type."""
+    """An element's name, its number of rows, and its properties (name, numpy type); a list has no type."""
 
     name: str
     count: int
     properties: list[tuple[str, str]]
 
     def row(self, order: str) -> np.dtype:
-        """Return a row's type. Raises TypeError where there is a list in it."""
+        """Return a row's type. Raises TypeError if the element has a list."""
         return np.dtype([(name, order + kind) for name, kind in self.properties])
 
 
 def read_points(path: Path) -> np.ndarray:
-    """Positions (n, 3) of the vertices. Raises BadInput where the file is no PLY, or is damaged."""
+    """Return positions (n, 3) of the vertices. Raises BadInput for another format or a damaged file."""
     data = path.read_bytes()
-    head, end, body = data.partition(b"end_header")
+    head, marker, body = data.partition(b"end_header")
     body = body[1:] if body[:1] == b"\n" else body[2:]
-    if not data.startswith(b"ply") or not end:
+    if not data.startswith(b"ply") or not marker:
         raise BadInput(f"{path}: not a PLY file: no header")
     try:
-        order, elements = _header(head.decode("ascii", "replace").splitlines())
-        before = [element.name for element in elements].index("vertex")
-        skipped, vertices = elements[:before], elements[before]
+        order, elements = _parse_header(head.decode("ascii", "replace").splitlines())
+        index = [element.name for element in elements].index("vertex")
+        skipped, vertices = elements[:index], elements[index]
         types = vertices.row(order)
         if order == ORDERS["ascii"]:
-            first = sum(element.count for element in skipped)
-            lines = body.decode("ascii").split("\n")[first : first + vertices.count]
+            start = sum(element.count for element in skipped)
+            lines = body.decode("ascii").split("\n")[start : start + vertices.count]
             rows = np.array([tuple(line.split()) for line in lines], dtype=types)
         else:
-            ahead = sum(element.row(order).itemsize * element.count for element in skipped)
-            rows = np.frombuffer(body, types, vertices.count, ahead)
+            offset = sum(element.row(order).itemsize * element.count for element in skipped)
+            rows = np.frombuffer(body, types, vertices.count, offset)
         if len(rows) < vertices.count:
             raise BadInput(f"it ends after {len(rows)} of {vertices.count} points")
         return np.stack([rows[axis].astype(float) for axis in "xyz"], axis=1)
@@ -114,8 +115,8 @@ def read_points(path: Path) -> np.ndarray:
         raise BadInput(f"{path}: a damaged PLY file: {foreign(error)}") from None
 
 
-def _header(lines: list[str]) -> tuple[str, list[Element]]:
-    """Byte order and elements; whatever error where it cannot be understood."""
+def _parse_header(lines: list[str]) -> tuple[str, list[Element]]:
+    """Return byte order and elements of a PLY header. Raises errors of any type for a damaged header."""
     order, elements = "", []
     for line in lines:
         word, *rest = line.split() or [""]

@@ -1,11 +1,10 @@
 """Residuals: the runs test for noise, rows that do not fit, and warnings about a fit.
 
-Independent noise gives two neighbouring residuals the same sign as often as not. Neighbours are consecutive
-samples of a motion at one point, and points joined by the minimal spanning tree of the plan at rest. A tree
-has no cycles, so that the pairs' signs are independent and the number of equal ones is binomial, m pairs with
-probability 1/2, whatever the noise's distribution, if its median is 0.
-Sources: Wald and Wolfowitz, Ann. Math. Statist. 11 (1940) 147; Friedman and Rafsky, Ann. Statist. 7 (1979)
-697.
+Independent noise gives two neighbouring residuals equal signs with probability 1/2. Neighbours are
+consecutive samples of a motion at one point, and points joined by the minimal spanning tree of the plan at
+rest. A tree has no cycles, so that the pairs' signs are independent and the number of equal ones is binomial,
+m pairs with probability 1/2, whatever the noise's distribution, if its median is 0. Sources: Wald and
+Wolfowitz, Ann. Math. Statist. 11 (1940) 147; Friedman and Rafsky, Ann. Statist. 7 (1979) 697.
 
 Rows of a table may not fit while the others do: typing slips, lost markers. The row farthest off is left out
 and the fit made again from where it was; it is named if it is then FAR times the others' standard deviation
@@ -40,7 +39,8 @@ NEIGHBOURS = 12  # of a point, among which the spanning tree is looked for
 
 @dataclass(frozen=True)
 class Runs:
-    """Of `pairs` neighbouring residuals `equal` have the same sign; along: "time" or "space"."""
+    """The runs test of residuals: `equal` of `pairs` neighbouring residuals have one sign; along: "time" or
+    "space"."""
 
     equal: int
     pairs: int
@@ -48,7 +48,7 @@ class Runs:
 
     @property
     def probability(self) -> float:
-        """That independent noise gives so many pairs the same sign, or more."""
+        """Probability that independent noise gives one sign to `equal` pairs or more."""
         return float(bdtrc(self.equal - 1, self.pairs, 0.5)) if self.equal else 1.0
 
     def __str__(self) -> str:
@@ -61,30 +61,30 @@ class Runs:
 
 def runs(measured: Measured, residuals: np.ndarray) -> Runs:
     """Return the runs test of residuals in the shape of the measurements, nan where nothing was measured."""
-    pairs, along = _pairs(measured)
+    pairs, direction = _pair_neighbours(measured)
     signs = np.nan_to_num(np.sign(residuals)).reshape(len(residuals), -1)
     products = signs[pairs[:, 0]] * signs[pairs[:, 1]]
-    return Runs(int((products > 0.0).sum()), int((products != 0.0).sum()), along)
+    return Runs(int((products > 0.0).sum()), int((products != 0.0).sum()), direction)
 
 
-def explained(noise: float, found: Runs, deviation: float = 0.0) -> bool:
-    """Return whether residuals of this standard deviation, in units of the largest measurement, are small,
-    not larger than those of the measurements, or noise."""
-    return noise < max(SMALL, deviation) or (noise < POOR and found.probability > UNLIKELY)
+def explained(noise: float, signs: Runs, deviation: float = 0.0) -> bool:
+    """Return whether residuals with a standard deviation `noise`, in units of the largest measurement, are
+    small, not larger than the measurements' `deviation`, or noise by the runs test."""
+    return noise < max(SMALL, deviation) or (noise < POOR and signs.probability > UNLIKELY)
 
 
-def _pairs(measured: Measured) -> tuple[np.ndarray, str]:
-    """Numbers of neighbouring rows (m, 2), and along what they are neighbours."""
+def _pair_neighbours(measured: Measured) -> tuple[np.ndarray, str]:
+    """Return pairs of neighbouring rows (m, 2), and whether they are neighbours along "time" or "space"."""
     if measured.time is not None:
         _, place = np.unique(measured.points, axis=0, return_inverse=True)
-        order = np.lexsort((measured.time, place.ravel()))
-        pairs = np.column_stack([order[:-1], order[1:]])
+        sequence = np.lexsort((measured.time, place.ravel()))
+        pairs = np.column_stack([sequence[:-1], sequence[1:]])
         return pairs[place.ravel()[pairs[:, 0]] == place.ravel()[pairs[:, 1]]], "time"
     points = measured.points[:, :2]
-    near = min(NEIGHBOURS + 1, len(points))
-    distance, neighbour = KDTree(points).query(points, k=range(1, near + 1))
+    count = min(NEIGHBOURS + 1, len(points))
+    distance, neighbour = KDTree(points).query(points, k=range(1, count + 1))
     distance = distance + 1e-12 * distance.max()  # the graph has no edges of length 0
-    rows = np.repeat(np.arange(len(points)), near)
+    rows = np.repeat(np.arange(len(points)), count)
     graph = csr_array((distance.ravel(), (rows, neighbour.ravel())), shape=(len(points),) * 2)
     tree = minimum_spanning_tree(graph).tocoo()
     return np.column_stack([tree.row, tree.col]), "space"
@@ -99,8 +99,8 @@ NORMAL = 1.4826  # standard deviation over the median of |noise|, of normal nois
 
 @dataclass(frozen=True)
 class Outlier:
-    """A row that does not fit: its number, its name, its component that is farthest off, that component as
-    measured and as the fit of all other rows has it [m]."""
+    """A row that does not fit: its number, its name, its component with the largest residual, and that
+    component [m], measured and by the fit of all other rows."""
 
     row: int
     name: str
@@ -116,30 +116,30 @@ class Outlier:
 
 
 def outliers(fit: Fit, best: Nearest) -> tuple[Outlier, ...]:
-    """Return the rows that do not fit, beside the best search of all rows; none of a surface."""
+    """Return the rows that do not fit; best: the search over all rows. A surface has none."""
     measured = fit.measured
     if not isinstance(measured, Displacements):
         return ()
     residuals, x = fit.per_point(best.residuals), best.x
     rows: list[int] = []
-    found: tuple[Outlier, ...] = ()
+    outlying: tuple[Outlier, ...] = ()
     while len(rows) < min(MOST, len(residuals) // FEWEST):
-        rest = np.abs(np.delete(residuals, rows, axis=0))
-        rest = rest[np.isfinite(rest)]
-        if rest.max() <= SUSPECT * NORMAL * np.median(rest):
+        others = np.abs(np.delete(residuals, rows, axis=0))
+        others = others[np.isfinite(others)]
+        if others.max() <= SUSPECT * NORMAL * np.median(others):
             break
         size = np.nan_to_num(np.abs(residuals)).max(axis=1)
         size[rows] = 0.0
         rows.append(int(np.argmax(size)))
         x = replace(fit, measured=measured.without(rows)).search(x).x
         residuals = fit.per_point(fit.at(x)[0])
-        spread = float(np.nanstd(np.delete(residuals, rows, axis=0)))
-        if np.nan_to_num(np.abs(residuals[rows])).max(axis=1).min() > FAR * spread:
-            found = tuple(_named(measured, residuals, row) for row in rows)
-    return found
+        deviation = float(np.nanstd(np.delete(residuals, rows, axis=0)))
+        if np.nan_to_num(np.abs(residuals[rows])).max(axis=1).min() > FAR * deviation:
+            outlying = tuple(_describe_outlier(measured, residuals, row) for row in rows)
+    return outlying
 
 
-def _named(measured: Displacements, residuals: np.ndarray, row: int) -> Outlier:
+def _describe_outlier(measured: Displacements, residuals: np.ndarray, row: int) -> Outlier:
     worst = int(np.argmax(np.nan_to_num(np.abs(residuals[row]))))
     value = float(measured.displacement[row, worst])
     return Outlier(row, measured.name_of(row), MOVED[worst], value, value + float(residuals[row, worst]))
@@ -148,61 +148,61 @@ def _named(measured: Displacements, residuals: np.ndarray, row: int) -> Outlier:
 CELLS = "cells half as large"
 
 
-def on_residuals(fit: Fit, best: Nearest, left: Runs, starts: int) -> list[str]:
-    """Return why residuals are more than noise, and what may be done."""
+def on_residuals(fit: Fit, best: Nearest, signs: Runs, starts: int) -> list[str]:
+    """Return a warning of residuals that are more than noise, with a remedy."""
     names = ", ".join(u.name for u in fit.unknowns)
-    tried = f"the best of {starts} starts" if starts > 1 else "the search"
+    effort = f"the best of {starts} starts" if starts > 1 else "the search"
     deviation = quantity(fit.measured.scale * best.noise, "m", ".3g")
-    size = f"{tried} leaves residuals of {deviation}, {few(100 * best.noise)} % of the largest measurement"
+    size = f"{effort} leaves residuals of {deviation}, {few(100 * best.noise)} % of the largest measurement"
     if best.noise > POOR:
         return [
             f"a poor fit: {size}: no value of {names} explains these data; look at frame, supports and model"
         ]
-    if explained(best.noise, left, fit.deviation):
+    if explained(best.noise, signs, fit.deviation):
         return []
     return [
-        f"not explained: {size}, and are not noise: {left}. Something is missing in the model (supports, "
-        "loads, an unknown, finer cells), and the interval, which assumes noise, is too narrow",
+        f"not explained: {size}, and are not noise: {signs}. Something is missing in the model (supports, "
+        "loads, an unknown, finer cells), and the interval, which assumes noise, is too narrow"
     ]
 
 
-def on_start(fit: Fit, best: Nearest, found: Mapping[str, Estimate]) -> list[str]:
-    """Return the values that are more than FACTOR times the scene's, or less than a FACTOR-th of it, and the
-    largest measurement beside the model's with the scene's own values."""
-    far = [
+def on_start(fit: Fit, best: Nearest, estimates: Mapping[str, Estimate]) -> list[str]:
+    """Return a warning of values more than FACTOR times the scene's, or less than a FACTOR-th of it, with the
+    largest measurement beside the model's displacement with the scene's own values."""
+    changed = [
         f"{u.name} = {quantity(u.value(x), u.unit, '.3g')} is {few(u.value(x) / u.start, 3)} times the "
         f"scene's {quantity(u.start, u.unit, '.3g')}"
         for u, x in zip(fit.unknowns, best.x, strict=True)
-        if u.step is None and u.given and found[u.name].determined and abs(x) > log(FACTOR)
+        if u.step is None and u.given and estimates[u.name].determined and abs(x) > log(FACTOR)
     ]
     question = "Is a value, a dimension, a support or a unit of the scene wrong?"
-    return [f"{'; '.join(far)}{_beside(fit)}. {question}"] if far else []
+    return [f"{'; '.join(changed)}{_compare_largest(fit)}. {question}"] if changed else []
 
 
-def _beside(fit: Fit) -> str:
+def _compare_largest(fit: Fit) -> str:
     """Return the largest measured displacement at rest beside the model's with the scene's own values."""
     measured = fit.measured
     if not isinstance(measured, Displacements) or measured.time is not None:
         return ""
     row, axis = np.unravel_index(np.nanargmax(np.abs(measured.displacement)), measured.displacement.shape)
     try:
-        own = fit.predict(np.zeros(len(fit.unknowns))).displacement[row, axis]
+        predicted = fit.predict(np.zeros(len(fit.unknowns))).displacement[row, axis]
     except NotReached:
         return ""
-    values = (quantity(float(value), "m", ".3g") for value in (own, measured.displacement[row, axis]))
+    values = (quantity(float(value), "m", ".3g") for value in (predicted, measured.displacement[row, axis]))
     return ", with which {} = {} where {} were measured".format(MOVED[int(axis)], *values)
 
 
 def on_ties(fit: Fit, best: Nearest) -> list[str]:
-    """Return whether numbers are rounded so far that their scatter says less than the rounding does: half of
-    them are equal to another one, and the residuals are below a rounding's to the nearest other number."""
+    """Return a warning of rounded numbers, with a scatter below the rounding error: half of the numbers are
+    equal to another one, and the residuals are below the rounding error of the smallest difference."""
     measured = fit.measured
     if not isinstance(measured, Displacements) or measured.deviation is not None:
         return []
     values = measured.displacement[measured.measured]
-    different = np.unique(values)
-    gap = float(np.diff(different).min(initial=np.inf))
-    if 2 * len(different) > len(values) or measured.scale * best.noise > gap / 12**0.5:
+    distinct = np.unique(values)
+    gap = float(np.diff(distinct).min(initial=np.inf))
+    if 2 * len(distinct) > len(values) or measured.scale * best.noise > gap / 12**0.5:
         return []
     return [
         f"the {len(values)} measured numbers are equal, or equal in pairs: they are rounded, and the "
@@ -212,7 +212,7 @@ def on_ties(fit: Fit, best: Nearest) -> list[str]:
 
 
 def on_bounds(fit: Fit, best: Nearest) -> list[str]:
-    """Return the unknowns that ended at a bound of the search."""
+    """Return warnings of unknowns that ended at a bound of the search."""
     return [
         f"{u.name} hit its search bound {quantity(u.value(x), u.unit)}: the data do not constrain it"
         for u, x, active in zip(fit.unknowns, best.x, best.against_bounds, strict=True)
@@ -221,30 +221,30 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
 
 
 def on_grid(
-    found: Mapping[str, Estimate], model: str, looked: bool, chosen: Sequence[int] | None = None
+    estimates: Mapping[str, Estimate], model: str, estimated: bool, fitted_grid: Sequence[int] | None = None
 ) -> list[str]:
-    """Return what the lattice's cells, or the elements of another model, do to the values; chosen: the grid
-    that the fit left the search with."""
+    """Return warnings of intervals that consist mostly of the error of the grid or mesh, or that lack it;
+    estimated: whether it was sought; fitted_grid: the last grid, if the fit chose it."""
     lattice = model == "lumped"
-    other, error = (CELLS, "grid's") if lattice else ("elements twice as large", "mesh's")
-    seen = [u for u in found.values() if u.determined and u.interval is not None]
-    if looked and seen and all(u.interval == u.noise_interval for u in seen):
-        return [f"{other} could not be solved: the {error} error is not known, nor in the interval"]
-    more = "masses (--lumped), or leave the grid to the fit" if lattice else "--elements"
-    if chosen is not None:
-        more = f"masses than the fit did, --lumped {2 * chosen[0] - 1}x{2 * chosen[1] - 1}"
-    finer = {
+    variant, error = (CELLS, "grid's") if lattice else ("elements twice as large", "mesh's")
+    with_interval = [u for u in estimates.values() if u.determined and u.interval is not None]
+    if estimated and with_interval and all(u.interval == u.noise_interval for u in with_interval):
+        return [f"{variant} could not be solved: the {error} error is not known, nor in the interval"]
+    remedy = "masses (--lumped), or leave the grid to the fit" if lattice else "--elements"
+    if fitted_grid is not None:
+        remedy = f"masses than the fit did, --lumped {2 * fitted_grid[0] - 1}x{2 * fitted_grid[1] - 1}"
+    wide_intervals = {
         name: "" if u.refined is None else f" would be {quantity(u.refined, u.unit)} on {CELLS}"
-        for name, u in found.items()
-        if u.determined and _wide(u)
+        for name, u in estimates.items()
+        if u.determined and _is_widened(u)
     }
-    rest = f"most of its interval is the {error} error; take more {more}"
-    return [f"{name}{value}: {rest}" for name, value in finer.items()]
+    advice = f"most of its interval is the {error} error; take more {remedy}"
+    return [f"{name}{value}: {advice}" for name, value in wide_intervals.items()]
 
 
-def _wide(found: Estimate) -> bool:
+def _is_widened(estimate: Estimate) -> bool:
     """Return whether the grid widens an interval to more than twice the noise's."""
-    if found.interval is None or found.noise_interval is None:
+    if estimate.interval is None or estimate.noise_interval is None:
         return False
-    whole, noise = np.ptp(found.interval), np.ptp(found.noise_interval)
-    return bool(whole > 2.0 * noise and whole > 1e-2 * abs(found.value))
+    total, noise = np.ptp(estimate.interval), np.ptp(estimate.noise_interval)
+    return bool(total > 2.0 * noise and total > 1e-2 * abs(estimate.value))

@@ -3,7 +3,7 @@
 φ(x, y) = (x, y, 0) + u(x, y), with u a cubic spline through the displacements on a plan grid. The foot of a
 point P minimises |P − φ| over the sheet (Gauss–Newton in x, y); the distance is the component of P − φ along
 the normal there, so that sliding within the surface, or a point measured beyond the sheet's edge, counts for
-nothing. By the envelope theorem the distance changes with a parameter as −n · ∂u/∂θ at the foot. Metres.
+nothing. The distance's derivative by a parameter is −n · ∂u/∂θ at the foot (envelope theorem). Metres.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ CLOSE = 1e-10  # of the sheet's longer side: a step of the foot that ends the se
 
 
 def plan_grid(lengths: tuple[float, float], counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates along x and along y [m], ends included."""
+    """Return coordinates along x and along y [m], ends included."""
     return np.linspace(0.0, lengths[0], counts[0]), np.linspace(0.0, lengths[1], counts[1])
 
 
@@ -39,13 +39,13 @@ class Field:
         ]
 
     def at(self, points: np.ndarray, dx: int = 0, dy: int = 0) -> np.ndarray:
-        """Values, or derivatives of order (dx, dy), at plan points (n, 2): (n, 3)."""
+        """Return values, or derivatives of order (dx, dy), at plan points (n, 2): (n, 3)."""
         return np.stack([part.ev(*points.T, dx=dx, dy=dy) for part in self._parts], axis=1)
 
 
 @dataclass(frozen=True)
 class Feet:
-    """Of every measured point: foot (n, 2) on the flat sheet [m], unit normal (n, 3), distance (n,) [m],
+    """Feet of measured points: (n, 2) on the flat sheet [m], unit normals (n, 3), distances (n,) [m],
     positive on the side of the normal (initially +z)."""
 
     points: np.ndarray
@@ -56,31 +56,31 @@ class Feet:
 def feet(axes: tuple[np.ndarray, np.ndarray], displacement: Field, cloud: np.ndarray) -> Feet:
     """Return the feet of a cloud (n, 3) [m] on the deformed surface."""
     lengths = np.array([axes[0][-1], axes[1][-1]])
-    starts = plan_points(plan_grid((lengths[0], lengths[1]), (65, 65)))
-    _, nearest = KDTree(_place(starts, displacement)).query(cloud)
-    plan = starts[nearest]
+    candidates = plan_points(plan_grid((lengths[0], lengths[1]), (65, 65)))
+    _, nearest = KDTree(_evaluate_points(candidates, displacement)).query(cloud)
+    plan = candidates[nearest]
     for _ in range(ITERATIONS):
-        gap = cloud - _place(plan, displacement)
-        tangents = _tangents(plan, displacement)  # (n, 3, 2)
+        offsets = cloud - _evaluate_points(plan, displacement)
+        tangents = _evaluate_tangents(plan, displacement)  # (n, 3, 2)
         metric = tangents.swapaxes(1, 2) @ tangents
-        step = np.linalg.solve(metric, tangents.swapaxes(1, 2) @ gap[:, :, None])[:, :, 0]
-        following = np.clip(plan + step, 0.0, lengths)
-        moved = np.abs(following - plan).max()
-        plan = following
-        if moved < CLOSE * lengths.max():
+        step = np.linalg.solve(metric, tangents.swapaxes(1, 2) @ offsets[:, :, None])[:, :, 0]
+        updated = np.clip(plan + step, 0.0, lengths)
+        change = np.abs(updated - plan).max()
+        plan = updated
+        if change < CLOSE * lengths.max():
             break
-    tangents = _tangents(plan, displacement)
+    tangents = _evaluate_tangents(plan, displacement)
     normals = np.cross(tangents[:, :, 0], tangents[:, :, 1])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    distances = np.einsum("nc,nc->n", normals, cloud - _place(plan, displacement))
+    distances = np.einsum("nc,nc->n", normals, cloud - _evaluate_points(plan, displacement))
     return Feet(plan, normals, distances)
 
 
-def _place(plan: np.ndarray, displacement: Field) -> np.ndarray:
+def _evaluate_points(plan: np.ndarray, displacement: Field) -> np.ndarray:
     return np.column_stack([plan, np.zeros(len(plan))]) + displacement.at(plan)
 
 
-def _tangents(plan: np.ndarray, displacement: Field) -> np.ndarray:
+def _evaluate_tangents(plan: np.ndarray, displacement: Field) -> np.ndarray:
     flat = np.eye(3)[:, :2]
-    moved = np.stack([displacement.at(plan, dx=1), displacement.at(plan, dy=1)], axis=-1)
-    return np.asarray(flat + moved)
+    derivatives = np.stack([displacement.at(plan, dx=1), displacement.at(plan, dy=1)], axis=-1)
+    return np.asarray(flat + derivatives)

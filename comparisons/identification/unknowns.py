@@ -27,7 +27,7 @@ FARTHEST = 1e6  # times the scene's own value, up or down, that a parameter abov
 @dataclass(frozen=True)
 class Unknown:
     """A parameter of a scene: its name and unit, the value the scene gives it, bounds, and the unit of x;
-    given: whether the scene gives it that value, and not FIRST_RATIO."""
+    given: whether the scene gives its start, rather than FIRST_RATIO."""
 
     name: str
     unit: str
@@ -42,22 +42,22 @@ class Unknown:
         return self.start * exp(float(x)) if self.step is None else self.start + self.step * float(x)
 
     def slope(self, x: float) -> float:
-        """d(value)/dx."""
+        """Return the derivative of the value by x."""
         return self.value(x) if self.step is None else self.step
 
     @property
     def turns(self) -> bool:
-        """Whether another value may turn the deflection over: of supports, not of the sheet."""
+        """Whether another value may reverse the deflection: of supports, not of the sheet."""
         return self.name.startswith(("curvature_", "tilt_"))
 
     def bounds(self) -> tuple[float, float]:
-        """Of x."""
+        """Return the bounds of x."""
         if self.step is None:
             return -log(FARTHEST), min(log(FARTHEST), log(self.high / self.start))
         return (self.low - self.start) / self.step, (self.high - self.start) / self.step
 
     def interval(self, x: float, half_width: float) -> tuple[float, float]:
-        """Values at x ± half_width, within the bounds."""
+        """Return the values at x ± half_width, within the bounds."""
         least, most = self.bounds()
         return (
             self.value(x - half_width) if x - half_width > least else self.low,
@@ -69,10 +69,9 @@ class Unknown:
 class Estimate:
     """An unknown's value, its 95 % interval, the value the search started from and the unit.
 
-    refined: about where a lattice with cells half as large would put it, None where that is not known;
-    noise_interval: that of the measurements' noise alone, without the error of the grid or mesh; both None of
-    as many unknowns as numbers without a standard deviation; determined: whether the data see it by itself.
-    """
+    refined: value on cells half as large, estimated, None if unknown; noise_interval: from the measurements'
+    noise alone, without the error of the grid or mesh. Both intervals are None for as many unknowns as
+    numbers without a standard deviation; determined: whether the data determine it."""
 
     value: float
     interval: tuple[float, float] | None
@@ -84,33 +83,34 @@ class Estimate:
 
 
 def unknown(scene: Scene, name: str) -> Unknown:
-    """Return a parameter of this scene, by its name or its SYMBOLS. A damping that the scene has at 0 is
-    sought from FIRST_RATIO on. Raises BadInput where there is none of that name, or another is 0."""
+    """Return a parameter of a scene as an unknown, by its name or its SYMBOLS. The search for a damping that
+    is 0 in the scene starts from FIRST_RATIO. Raises BadInput for unknown names, and for other parameters at
+    0."""
     name = SYMBOLS.get(name, name)
     try:
-        found = parameter(scene, name)
+        given = parameter(scene, name)
         if name.startswith("tilt_"):
-            put(scene, name, found.value or LARGEST_TILT)
+            put(scene, name, given.value or LARGEST_TILT)
     except SceneError as error:
         reason = "supports and actuators allow no tilt there"
         raise BadInput(f"unknown = '{name}': {reason}: {error}") from None
     except BadInput as error:
         raise BadInput(f"unknown = {error}") from None
-    if found.low < 0.0:
+    if given.low < 0.0:
         step = 1.0 / max(scene.sheet.lengths) if name.startswith("curvature_") else 1.0
-        return Unknown(name, found.unit, found.value, found.low, found.high, step)
-    if found.value == 0.0 and name in DAMPING:
-        return Unknown(name, found.unit, _first_damping(scene, name), found.low, found.high, given=False)
-    if found.value == 0.0:
+        return Unknown(name, given.unit, given.value, given.low, given.high, step)
+    if given.value == 0.0 and name in DAMPING:
+        return Unknown(name, given.unit, _pick_damping(scene, name), given.low, given.high, given=False)
+    if given.value == 0.0:
         raise BadInput(
             f"unknown = '{name}': scene '{scene.name}' has it at 0; give a first guess above 0 there"
         )
-    return Unknown(name, found.unit, found.value, found.low, found.high)
+    return Unknown(name, given.unit, given.value, given.low, given.high)
 
 
-def _first_damping(scene: Scene, name: str) -> float:
-    """FIRST_RATIO of critical damping in the flat sheet's lowest mode, ζ = c ω/2 of a damping time c and
-    ζ = c/2ω of a damping rate."""
+def _pick_damping(scene: Scene, name: str) -> float:
+    """Return a damping that is FIRST_RATIO of critical in the flat sheet's lowest mode: ζ = c ω/2 of a
+    damping time c, ζ = c/2ω of a damping rate."""
     import lumped
 
     springs = lumped.calibrate(scene.sheet, scene.material, grid_of(scene.sheet, COARSE))

@@ -77,11 +77,11 @@ class Panel:
         value beyond the bounds."""
         self.scene = scene
         self._lattice = lattice or Lattice()
-        self.sliders = {s.name: s for s in _sliders(scene, elements, self._lattice)}
+        self.sliders = {s.name: s for s in _make_sliders(scene, elements, self._lattice)}
         own = (
             {OWN: {"said": "the scene's own [springs], on their grid", "takes": []}} if scene.springs else {}
         )
-        self.calibrations = own | {  # those that take no fit, the usual one first
+        self.calibrations = own | {  # methods without a fit, the usual one first
             name: {"said": method.summary, "takes": sorted(method.takes)}
             for name in (CALIBRATION, *CALIBRATIONS)
             for method in [CALIBRATIONS[name]]
@@ -115,8 +115,8 @@ class Panel:
             place = ["no question", ".".join(map(str, fault["loc"]))[:SHOWN], fault["msg"]]
             raise BadInput(": ".join(filter(None, place))) from None
         scene, values, name = self.scene, message.values, message.calibration
-        if odd := values.keys() ^ self.sliders.keys():
-            raise BadInput(f"values: {', '.join(sorted(odd))[:SHOWN]}: {', '.join(self.sliders)} are needed")
+        if keys := values.keys() ^ self.sliders.keys():
+            raise BadInput(f"values: {', '.join(sorted(keys))[:SHOWN]}: {', '.join(self.sliders)} are needed")
         require_choice("calibration", name, self.calibrations)
         for slider in self.sliders.values():
             slider.require(value := values[slider.name])
@@ -128,14 +128,14 @@ class Panel:
                 scene = scene.replace(loads=tuple(load.times(value) for load in scene.loads))
             else:
                 scene = put(scene, slider.name, value)
-        takes = self.calibrations[name]["takes"]
-        k = values.get("k") if "k" in takes else None
-        distance = self._lattice.layer_distance if "layer_distance" in takes else None
+        options = self.calibrations[name]["takes"]
+        k = values.get("k") if "k" in options else None
+        distance = self._lattice.layer_distance if "layer_distance" in options else None
         lattice = Lattice(int(values["grid"]), name, k, distance, values["grading"] or None)
         return Question(message.number, scene, Lattice() if name == OWN else lattice, int(values["elements"]))
 
 
-def _sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[Slider]:
+def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[Slider]:
     """Yield sliders of the scene, then of the models."""
     material, thickness = scene.material, scene.sheet.thickness
     moduli = {"young_1": "Young's modulus along the fibres", "young_2": "Young's modulus across the fibres"}
@@ -144,31 +144,31 @@ def _sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[Slider
         yield Slider("poisson", "Poisson's ratio ν", "", 1.0, 0.0, 0.495, material.poisson)
     else:
         yield Slider("angle", "Angle of the fibres", "°", 180.0 / pi, -pi, pi, material.angle or 0.0)
-    stiff = (n for n, patch in enumerate(scene.patches, start=1) if "young" in patch.own)
-    for name, label in (moduli | {f"patch{n}.young": f"E of patch {n}" for n in stiff}).items():
+    patches = (n for n, patch in enumerate(scene.patches, start=1) if "young" in patch.own)
+    for name, label in (moduli | {f"patch{n}.young": f"E of patch {n}" for n in patches}).items():
         value = parameter(scene, name).value
         yield Slider(name, label, "MPa", 1e-6, value / 30, value * 30, value, logarithmic=True)
-    thick = max(thickness, min(4 * thickness, 0.5 * min(scene.sheet.lengths)))
-    yield Slider("thickness", "Thickness h", "mm", 1e3, thickness / 4, thick, thickness, logarithmic=True)
+    thickest = max(thickness, min(4 * thickness, 0.5 * min(scene.sheet.lengths)))
+    yield Slider("thickness", "Thickness h", "mm", 1e3, thickness / 4, thickest, thickness, logarithmic=True)
     if scene.gravity is not None:
         yield Slider("gravity", "Gravity", "× the scene's", 1.0, 0.0, 3.0, 1.0)
     if scene.loads:
         yield Slider("loads", "Loads", "× the scene's", 1.0, -3.0, 3.0, 1.0)
     for edge in EDGES:
         with suppress(BadInput):  # an edge that is not bent, or by no single number
-            found = parameter(scene, f"curvature_{edge}")
-            bend = max(2 * abs(found.value), 1.5 / min(scene.sheet.lengths))
-            yield Slider(found.name, f"Curvature of edge {edge}", "1/m", 1.0, -bend, bend, found.value)
-    masses, fine = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
+            curve = parameter(scene, f"curvature_{edge}")
+            limit = max(2 * abs(curve.value), 1.5 / min(scene.sheet.lengths))
+            yield Slider(curve.name, f"Curvature of edge {edge}", "1/m", 1.0, -limit, limit, curve.value)
+    masses, finest = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
     grid, grading = str(lattice.grid or min(MASSES, masses)), lattice.grading or 0.0
     if not (grid.isdecimal() and isinstance(grading, float | int) and isinstance(elements, int)):
-        shown = f"grid = {grid}, grading = {grading}, elements = {counted(elements)}"
-        raise BadInput(f"{shown}: a number each (near-square cells, all edges)")
+        settings = f"grid = {grid}, grading = {grading}, elements = {counted(elements)}"
+        raise BadInput(f"{settings}: a number each (near-square cells, all edges)")
     yield Slider("grid", "Masses along the shorter side", "", 1.0, 3, masses, int(grid), whole=True)
     yield Slider("grading", "Grading towards the edges", "", 1.0, 0.0, 1.0, grading)
     if (k := lattice.k) is not None:
         yield Slider("k", "Stiffness k of every spring", "N/m", 1.0, k / 30, k * 30, k, logarithmic=True)
-    yield Slider("elements", "Shell elements along it", "", 1.0, 2, fine, min(elements, fine), whole=True)
+    yield Slider("elements", "Shell elements along it", "", 1.0, 2, finest, min(elements, finest), whole=True)
 
 
 def most(sheet: Sheet, cap: int) -> int:

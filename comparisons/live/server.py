@@ -64,7 +64,7 @@ class Server(ThreadingHTTPServer):
             super().__init__((LOOPBACK, port), Desk)
         except (OSError, OverflowError) as error:
             raise BadInput(f"--port = {port}: cannot be had: {error}") from None
-        self.panel, self.assets, self.token = panel, _assets(panel), secrets.token_urlsafe(32)
+        self.panel, self.assets, self.token = panel, _load_assets(panel), secrets.token_urlsafe(32)
         self.hosts = {f"{name}:{self.server_port}" for name in (LOOPBACK, "localhost")}
         self.address = f"http://{LOOPBACK}:{self.server_port}/{self.token}/"
 
@@ -157,7 +157,7 @@ def solved(question: Question) -> Solution:
 def lattice(question: Question) -> dict[str, Any]:
     """Return the lattice's message."""
     solution = solved(question)
-    return _message(question, solution, "lattice", solution.mesh)
+    return _encode_answer(question, solution, "lattice", solution.mesh)
 
 
 def shell(question: Question) -> dict[str, Any]:
@@ -172,13 +172,13 @@ def shell(question: Question) -> dict[str, Any]:
     off = np.linalg.norm(beside.displacement(places) - solution.displacement(places), axis=1)
     known = beside.comparable and solution.comparable
     return {
-        **_message(question, solution, "shell", mesh),
+        **_encode_answer(question, solution, "shell", mesh),
         "error": error(beside.displacement(probes), solution.displacement(probes)) if known else None,
         "difference": packed(np.nan_to_num(off)),
     }
 
 
-def _message(question: Question, solution: Solution, model: str, mesh: FieldMesh) -> dict[str, Any]:
+def _encode_answer(question: Question, solution: Solution, model: str, mesh: FieldMesh) -> dict[str, Any]:
     known = plain(solution.document(question.scene))
     said = solution.message or ("" if solution.comparable else solution.status.advice)
     flat = field("difference", "Difference from the shell", np.zeros(len(mesh.points)), "mm", 1e3)
@@ -191,7 +191,7 @@ def _message(question: Question, solution: Solution, model: str, mesh: FieldMesh
 WAYS = {"lattice": lattice, "shell": shell}
 
 
-def _assets(panel: Panel) -> dict[str, tuple[Any, str]]:
+def _load_assets(panel: Panel) -> dict[str, tuple[Any, str]]:
     """Return content and type of the page's files, by name; the page itself has none."""
     folder, own = resources.files("comparisons.live").joinpath("page"), ("live.html", "live.css", "live.js")
     texts = {name: folder.joinpath(name).read_text("utf-8") for name in own}

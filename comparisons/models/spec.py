@@ -112,7 +112,7 @@ class Lattice(Spec):
     layer_distance : float [m], optional
         Distance of the layers.
     grading : float, Grading or str, optional
-        From 0 (equal cells) to 1, towards some edges as "0.5:x0", or "auto".
+        Grading from 0 (equal cells) to 1, towards some edges as "0.5:x0", or "auto".
     linear : bool, optional
         One step with the flat sheet's tangent.
     branch : {"path", "buckled"}, optional

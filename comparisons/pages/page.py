@@ -42,23 +42,23 @@ MOVING_OR_LINES = {".gif": "gif", ".svg": "svg+xml"}  # shown as they are; no sc
 LARGEST = 80_000_000  # pixels of a picture that is opened
 
 
-def page(found: FolderContents, title: str) -> str:
+def page(contents: FolderContents, title: str) -> str:
     """Return the HTML of a folder's studies."""
-    shown = [_study(study, n) for n, study in enumerate(found.studies, start=1)]
-    titles = Counter(study.title for study in found.studies)
-    troubles = [*found.troubles, *(trouble for study in found.studies for trouble in study.troubles)]
+    values = [_describe_study(study, n) for n, study in enumerate(contents.studies, start=1)]
+    titles = Counter(study.title for study in contents.studies)
+    troubles = [*contents.troubles, *(trouble for study in contents.studies for trouble in study.troubles)]
     style, script = (own_text(f"viewer.{kind}") + own_text(f"page.{kind}") for kind in ("css", "js"))
     environment = Environment(
         loader=PackageLoader(PACKAGE, "."), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True, finalize=_visible,
+        lstrip_blocks=True, finalize=_spell_out,
     )  # fmt: skip
     environment.filters["whole_words"] = whole_words
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     return environment.get_template("page.html").render(
         title=title,
-        studies=shown,
+        studies=values,
         ambiguous={title for title, count in titles.items() if count > 1},
-        brief=len(shown) > MANY,
+        brief=len(values) > MANY,
         troubles=list(dict.fromkeys(troubles)),
         made_with=made_with(),
         policy=policy(script, style),
@@ -78,7 +78,7 @@ def policy(script: str, style: str) -> str:
 def whole_words(text: str) -> Markup:
     """Return the text so that options and names with hyphens are not broken over lines at hyphens."""
     span = Markup('<span class="whole">{}</span>')
-    words = _visible(text).split(" ")
+    words = _spell_out(text).split(" ")
     return Markup(" ").join(span.format(word) if "-" in word else word for word in words)
 
 
@@ -91,16 +91,16 @@ def _digest(text: str) -> str:
     return f"sha256-{b64encode(hashlib.sha256(text.encode()).digest()).decode('ascii')}"
 
 
-def _visible(value: Any) -> Any:
+def _spell_out(value: Any) -> Any:
     """Text with its control characters spelled out; other values as they are."""
     return terminal(value, keep="\n") if type(value) is str else value
 
 
-def _study(study: Study, number: int) -> dict[str, Any]:
+def _describe_study(study: Study, number: int) -> dict[str, Any]:
     """Return a study's values for the template."""
-    sheets, drawn, words = stage(study), pictures(study), study.words
-    turning = sheets is not None and not any(sheet.get("frames") for sheet in sheets["sheets"])
-    folded = [one for one in drawn if turning and not one[0].endswith(".svg")]
+    sheets, images, words = stage(study), pictures(study), study.words
+    has_still_sheets = sheets is not None and not any(sheet.get("frames") for sheet in sheets["sheets"])
+    folded = [one for one in images if has_still_sheets and not one[0].endswith(".svg")]
     return {
         **{name: getattr(study, name) for name in AS_THEY_ARE},
         "id": f"study-{number}",
@@ -110,15 +110,15 @@ def _study(study: Study, number: int) -> dict[str, Any]:
         "unfinished": bool(study.run) and not study.run.get("finished", True),
         "stage": plain({**sheets, "label": f"Sheet of {study.title}"}) if sheets else None,
         "tables": tables(study),
-        "pictures": drawn,
-        "figures": [one for one in drawn if one not in folded],
+        "pictures": images,
+        "figures": [one for one in images if one not in folded],
         "folded": folded,
-        "made": _made(study.record, study.run),
-        "files": [(name, _size(study.folder / name)) for name in study.files],
+        "made": _list_sources(study.record, study.run),
+        "files": [(name, _read_size(study.folder / name)) for name in study.files],
     }
 
 
-def _made(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, str]]:
+def _list_sources(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the machine, the versions and the times of a study."""
     machine = record.get("machine") or {}
     versions = record.get("versions") or {}
@@ -132,7 +132,7 @@ def _made(record: Mapping[str, Any], run: Mapping[str, Any]) -> list[tuple[str, 
     return [(name, str(value)) for name, value in parts.items() if value]
 
 
-def _size(path: Path) -> str:
+def _read_size(path: Path) -> str:
     return memory_of(path.stat().st_size) if path.is_file() else ""
 
 
@@ -140,21 +140,21 @@ def question(study: Study) -> list[tuple[str, str]]:
     """Pairs of a part's name and its sentence: of the scene, of each model's settings, of common settings;
     reasons of choices are among the notes."""
     scene = study.scene
-    parts = study.attempt("scene", lambda: [*in_words(scene)]) if scene is not None else []
+    sentences = study.attempt("scene", lambda: [*in_words(scene)]) if scene is not None else []
     settings = study.run.get("settings")
     settings = settings if isinstance(settings, dict) else {}
     nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
-    lines = [(name, _line(values)) for name, values in nested.items() if values]
-    rest = _line({k: v for k, v in settings.items() if k not in nested})
-    return [*(parts or []), *lines, *([("settings", rest)] if rest else [])]
+    lines = [(name, _join_settings(values)) for name, values in nested.items() if values]
+    common = _join_settings({k: v for k, v in settings.items() if k not in nested})
+    return [*(sentences or []), *lines, *([("settings", common)] if common else [])]
 
 
-def _line(values: Mapping[str, Any]) -> str:
-    shown = ((key.replace("_", " "), _short(key, value)) for key, value in values.items())
+def _join_settings(values: Mapping[str, Any]) -> str:
+    shown = ((key.replace("_", " "), _shorten(key, value)) for key, value in values.items())
     return ", ".join(f"{key} {value}" for key, value in shown if value and not key.endswith(" reason"))
 
 
-def _short(key: str, value: Any) -> str:
+def _shorten(key: str, value: Any) -> str:
     """Return a setting in a few characters; nothing of one that is long, which the document has."""
     if isinstance(value, bool):
         return "on" if value else "off"
@@ -164,7 +164,7 @@ def _short(key: str, value: Any) -> str:
         return number(value, ".4g")
     if isinstance(value, list) and key == "grids":  # several, and not the sides of one
         return ", ".join(map(str, value))
-    if isinstance(value, list) and all(isinstance(one, int) for one in value) and len(value) <= 3:
+    if isinstance(value, list) and all(isinstance(part, int) for part in value) and len(value) <= 3:
         return " × ".join(map(str, value))
     return str(value) if isinstance(value, str | int) and len(str(value)) <= 60 else ""
 
@@ -172,11 +172,11 @@ def _short(key: str, value: Any) -> str:
 def pictures(study: Study) -> list[tuple[str, str]]:
     """Names and data addresses of a study's pictures; of one in several formats the first."""
     names = {Path(name).stem: name for name in reversed(study.ending(".png", ".svg", ".gif"))}
-    found = ((name, study.read(name, _small)) for name in reversed(names.values()))
-    return [(name, address) for name, address in found if address]
+    images = ((name, study.read(name, _encode_picture)) for name in reversed(names.values()))
+    return [(name, address) for name, address in images if address]
 
 
-def _small(path: Path) -> str:
+def _encode_picture(path: Path) -> str:
     if path.suffix.lower() == ".svg":
         ElementTree.parse(path)  # a damaged one is no picture
     if kind := MOVING_OR_LINES.get(path.suffix.lower()):
@@ -184,8 +184,8 @@ def _small(path: Path) -> str:
     with Image.open(path) as picture:
         if picture.width * picture.height > LARGEST:
             raise BadInput("too many pixels for a page")
-        shown = picture.convert("RGB")
-    shown.thumbnail((WIDEST, 4 * WIDEST))
-    written = BytesIO()
-    shown.save(written, "WEBP", quality=88, method=4)
-    return f"data:image/webp;base64,{b64encode(written.getvalue()).decode('ascii')}"
+        image = picture.convert("RGB")
+    image.thumbnail((WIDEST, 4 * WIDEST))
+    buffer = BytesIO()
+    image.save(buffer, "WEBP", quality=88, method=4)
+    return f"data:image/webp;base64,{b64encode(buffer.getvalue()).decode('ascii')}"

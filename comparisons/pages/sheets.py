@@ -51,8 +51,7 @@ def displaced(component: str | None = None) -> dict[str, Any]:
 
 
 def field(name: str, label: str, values: np.ndarray, unit: str = "", scale: float = 1.0) -> dict[str, Any]:
-    """Return a field of values (n,), shown times `scale` in `unit`; coloured about zero if some are below
-    it."""
+    """Return a field of values (n,), shown times `scale` in `unit`; coloured about zero if one is below."""
     kind = "signed" if np.nanmin(values, initial=0.0) < 0.0 else "magnitude"
     shown = {"name": name, "label": label, "unit": unit, "scale": scale, "kind": kind}
     return {**shown, "values": packed(values)}
@@ -73,50 +72,50 @@ def viewer_sheet(
     """
     lattice = any(kind == "line" for kind, _ in mesh.cells)
     u = mesh.point_data["displacement"]
-    straight, faint, strong = _links(mesh) if lattice else (_shape_lines(mesh), _NONE, _NONE)
-    found: dict[str, Any] = {
+    aligned, faint, strong = _find_links(mesh) if lattice else (_find_sides(mesh), _NONE, _NONE)
+    sheet: dict[str, Any] = {
         "name": name,
         "label": label or name,
         "style": "lattice" if lattice else "surface",
         "points": packed(np.asarray(mesh.points, dtype=float)),
         "displacement": packed(np.nan_to_num(u)),
-        "lines": packed(straight),
+        "lines": packed(aligned),
         "faint": packed(faint),
         "strong": packed(strong),
         "fields": [displaced(), *(displaced(axis) for axis in "xyz"), *fields],
     }
     if not lattice:
-        found |= {"quads": packed(_quads(mesh)), "triangles": packed(_cells(mesh, TRIANGLES, 3))}
+        sheet |= {"quads": packed(_find_quads(mesh)), "triangles": packed(_find_cells(mesh, TRIANGLES, 3))}
     if scene is not None:
-        found["held"] = _held(mesh.points, scene)
-        found["forces"] = forces(mesh.points, u, scene)
+        sheet["held"] = _find_held(mesh.points, scene)
+        sheet["forces"] = forces(mesh.points, u, scene)
     if frames:
-        found["frames"] = [{"time": time, "displacement": packed(np.nan_to_num(u))} for time, u in frames]
-    return found
+        sheet["frames"] = [{"time": time, "displacement": packed(np.nan_to_num(u))} for time, u in frames]
+    return sheet
 
 
 def forces(points: np.ndarray, displacement: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
     """Arrows of the scene's loads, as in the pictures; points (n, 3) [m]: of the mesh at rest, displacement
     (n, 3) [m]: theirs."""
-    plan, arrows = load_arrows(scene, partial(_normals, points, np.nan_to_num(displacement)))
+    plan, arrows = load_arrows(scene, partial(_fit_normals, points, np.nan_to_num(displacement)))
     found = []
-    for at, along in zip(plan, max(scene.sheet.lengths) * arrows, strict=True):
-        if along.any():
+    for at, arrow in zip(plan, max(scene.sheet.lengths) * arrows, strict=True):
+        if arrow.any():
             nearest = int(np.argmin(np.linalg.norm(points[:, :2] - at, axis=1)))
-            found.append({"point": nearest, "at": [*at.tolist(), 0.0], "along": along.tolist()})
+            found.append({"point": nearest, "at": [*at.tolist(), 0.0], "along": arrow.tolist()})
     return found
 
 
-def _normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> np.ndarray:
+def _fit_normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> np.ndarray:
     """Unit normals (n, 3) of the deformed mesh at plan points (n, 2): of planes through points nearby."""
-    found = np.zeros((len(plan), 3))
-    for i, at in enumerate(plan):
-        near = np.argsort(np.linalg.norm(points[:, :2] - at, axis=1))[:NEAR]
-        flat = np.column_stack([points[near, :2] - at, np.ones(len(near))])
-        tangents = np.linalg.lstsq(flat, (points + displacement)[near], rcond=None)[0]
+    normals = np.zeros((len(plan), 3))
+    for i, point in enumerate(plan):
+        nearest = np.argsort(np.linalg.norm(points[:, :2] - point, axis=1))[:NEAR]
+        flat = np.column_stack([points[nearest, :2] - point, np.ones(len(nearest))])
+        tangents = np.linalg.lstsq(flat, (points + displacement)[nearest], rcond=None)[0]
         normal = np.cross(tangents[0], tangents[1])
-        found[i] = normal / (np.linalg.norm(normal) or 1.0)
-    return found
+        normals[i] = normal / (np.linalg.norm(normal) or 1.0)
+    return normals
 
 
 def outline(scene: Scene) -> dict[str, str]:
@@ -134,61 +133,61 @@ def eye(scene: Scene) -> list[float]:
 _NONE = np.zeros((0, 2), dtype=int)
 
 
-def _cells(mesh: FieldMesh, kinds: Sequence[str], corners: int) -> np.ndarray:
-    found = [np.asarray(cells)[:, :corners] for kind, cells in mesh.cells if kind in kinds]
-    return np.concatenate(found) if found else np.zeros((0, corners), dtype=int)
+def _find_cells(mesh: FieldMesh, kinds: Sequence[str], corners: int) -> np.ndarray:
+    parts = [np.asarray(cells)[:, :corners] for kind, cells in mesh.cells if kind in kinds]
+    return np.concatenate(parts) if parts else np.zeros((0, corners), dtype=int)
 
 
-def _quads(mesh: FieldMesh) -> np.ndarray:
+def _find_quads(mesh: FieldMesh) -> np.ndarray:
     """Quadrilaterals of the mesh and the outer faces of its bricks, (m, 4)."""
-    found = [_cells(mesh, QUADS, 4)]
+    parts = [_find_cells(mesh, QUADS, 4)]
     bricks = [np.asarray(cells)[:, :8] for kind, cells in mesh.cells if kind.startswith("hexahedron")]
     if bricks:
         faces = np.concatenate([cells[:, face] for cells in bricks for face in FACES])
         _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
-        found.append(faces[first[count == 1]])
-    return np.concatenate(found)
+        parts.append(faces[first[count == 1]])
+    return np.concatenate(parts)
 
 
-def _links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _find_links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Links along an axis, the others, and the axes of chains, (m, 2) each."""
-    pairs = _cells(mesh, ("line",), 2)
+    pairs = _find_cells(mesh, ("line",), 2)
     chain = np.asarray(mesh.point_data.get("actuator", np.zeros(len(mesh.points))))[pairs].min(axis=1) > 0
-    gaps = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0])
-    straight = (gaps > 1e-9 * np.ptp(mesh.points, axis=0).max()).sum(axis=1) == 1
-    return pairs[straight & ~chain], pairs[~straight & ~chain], pairs[chain]
+    lengths = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0])
+    aligned = (lengths > 1e-9 * np.ptp(mesh.points, axis=0).max()).sum(axis=1) == 1
+    return pairs[aligned & ~chain], pairs[~aligned & ~chain], pairs[chain]
 
 
-def _shape_lines(mesh: FieldMesh) -> np.ndarray:
+def _find_sides(mesh: FieldMesh) -> np.ndarray:
     """Sides of quadrilaterals, (m, 2): all of a coarse mesh, of a finer regular one as many as cut it into
     LINES cells a side, so that its shape is visible."""
-    quads = _cells(mesh, QUADS, 4)
+    quads = _find_cells(mesh, QUADS, 4)
     sides = np.unique(np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0)
-    kept = np.zeros(len(sides), dtype=bool)
+    mask = np.zeros(len(sides), dtype=bool)
     for axis in (0, 1):
         lines = np.unique(np.round(mesh.points[quads][:, :, axis], 9))
         step = max(1, round((len(lines) - 1) / LINES)) if 1 < len(lines) <= 4 * PLAN_CELLS + 1 else 1
-        at = np.round(mesh.points[sides][:, :, axis], 9)
-        kept |= (at[:, 0] == at[:, 1]) & np.isin(at[:, 0], lines[::step])
-    return sides[kept]
+        ends = np.round(mesh.points[sides][:, :, axis], 9)
+        mask |= (ends[:, 0] == ends[:, 1]) & np.isin(ends[:, 0], lines[::step])
+    return sides[mask]
 
 
-def _held(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
+def _find_held(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
     """Points along every support, in order, on each layer of a lattice, else on the middle of the sheet."""
     size = max(scene.sheet.lengths)
-    found = []
+    rows = []
     for support in scene.supports:
         if place(support) is not None:  # no line of points
             continue
         edge = EDGES[support.edge]
         across = np.abs(points[:, edge.normal_axis] - scene.sheet.edge_at(support.edge))
-        on = np.flatnonzero(across < 1e-6 * size)
-        if not len(on):
+        indices = np.flatnonzero(across < 1e-6 * size)
+        if not len(indices):
             continue
-        levels = np.unique(np.round(points[on, 2], 12))
+        levels = np.unique(np.round(points[indices, 2], 12))
         for level in levels if len(levels) == 2 else [levels[np.argmin(np.abs(levels))]]:
-            there = on[np.abs(points[on, 2] - level) < 1e-9 * size]
-            ordered = there[np.argsort(points[there, edge.along_axis])]
+            row = indices[np.abs(points[indices, 2] - level) < 1e-9 * size]
+            ordered = row[np.argsort(points[row, edge.along_axis])]
             if len(ordered) > 1:
-                found.append({"points": packed(ordered), "firm": holds_director(support)})
-    return found
+                rows.append({"points": packed(ordered), "firm": holds_director(support)})
+    return rows

@@ -175,28 +175,28 @@ def read(root: Path) -> FolderContents:
     return found
 
 
-def _collect(folder: Path, place: str, found: FolderContents) -> None:
+def _collect(folder: Path, place: str, contents: FolderContents) -> None:
     """Add the studies of a folder and of all below it but a run's own folders, hidden ones and links; place:
     its path below the root."""
     try:
-        inside = [path for path in sorted(folder.iterdir()) if not path.name.startswith(".")]
+        paths = [path for path in sorted(folder.iterdir()) if not path.name.startswith(".")]
     except OSError as error:
-        found.troubles.append(f"{folder}: cannot be read: {error.strerror}")
+        contents.troubles.append(f"{folder}: cannot be read: {error.strerror}")
         return
     record: Mapping[str, Any] = {}
     try:
         record = manifest(folder)
     except BadInput as error:
         damaged = f"{place}/{MANIFEST}".lstrip("/") + f": damaged, cannot be read: {foreign(error)}"
-        found.troubles.append(damaged)
-    claimed = {*OURS}
+        contents.troubles.append(damaged)
+    outputs = {*OURS}
     for verb, run in record.get("runs", {}).items():
-        claimed.update(names := tuple(run.get("files", ())))
-        found.studies.append(Study(folder, place, verb, names, run, record))
-    kept = {path.stem for path in inside if path.suffix == ".pvd"} | {name.rstrip("/") for name in claimed}
-    for path in inside:
-        if isdir(path) and not islink(path) and path.name not in kept and not isfile(path / "run.json"):
-            _collect(path, f"{place}/{path.name}".lstrip("/"), found)
+        outputs.update(names := tuple(run.get("files", ())))
+        contents.studies.append(Study(folder, place, verb, names, run, record))
+    excluded = {path.stem for path in paths if path.suffix == ".pvd"} | {name.rstrip("/") for name in outputs}
+    for path in paths:
+        if isdir(path) and not islink(path) and path.name not in excluded and not isfile(path / "run.json"):
+            _collect(path, f"{place}/{path.name}".lstrip("/"), contents)
 
 
 MOST, LONG = 500, 15  # rows of a table on a page, and from which on it is folded
@@ -218,40 +218,41 @@ class PageTable(Table):
 
 def tables(study: Study) -> list[PageTable]:
     """Return every table in a study's manifest."""
-    found = []
-    for words in study.words.get("tables", ()):
-        name, rows = f"{words.get('name')}.csv", words.get("rows")
+    collected = []
+    for description in study.words.get("tables", ()):
+        name, rows = f"{description.get('name')}.csv", description.get("rows")
         if rows is None and name in study.files:
-            rows = (study.read(name, _rows) or [])[1:] or None
-        made = study.attempt(name, partial(_described, words, rows)) if rows is not None else None
-        if made:
-            found.append(made)
-    return found
+            rows = (study.read(name, _read_rows) or [])[1:] or None
+        table = study.attempt(name, partial(_restore_table, description, rows)) if rows is not None else None
+        if table:
+            collected.append(table)
+    return collected
 
 
-def _rows(path: Path) -> list[list[str]]:
+def _read_rows(path: Path) -> list[list[str]]:
     with path.open(encoding="utf-8", newline="") as file:
-        return [[_plain(cell) for cell in row] for row in csv.reader(file, strict=True) if row]
+        return [[_strip_guard(cell) for cell in row] for row in csv.reader(file, strict=True) if row]
 
 
-def _plain(cell: str) -> str:
+def _strip_guard(cell: str) -> str:
     """Return the cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
     return cell[1:] if cell[:1] == "'" and cell[1:2] in ("=", "+", "-", "@", "\t", "\r") else cell
 
 
-def _described(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> PageTable:
-    known = {one.name for one in fields(Column)}
-    columns = [Column(**{k: v for k, v in column.items() if k in known}) for column in words["columns"]]
+def _restore_table(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> PageTable:
+    names = {one.name for one in fields(Column)}
+    columns = [Column(**{k: v for k, v in column.items() if k in names}) for column in words["columns"]]
     units = [bool(column.get("units")) for column in words["columns"]]
     values = [
-        tuple(_cell(c, u, v) for c, u, v in zip(columns, units, row, strict=True)) for row in rows[:MOST]
+        tuple(_parse_cell(c, u, v) for c, u, v in zip(columns, units, row, strict=True))
+        for row in rows[:MOST]
     ]
     caption, text = words.get("caption", ""), words.get("text", "")
     note = f"The first {MOST} of {len(rows)} rows; the file has all." if len(rows) > MOST else ""
     return PageTable(caption, tuple(columns), tuple(values), text=text, note=note, aside=len(rows) > LONG)
 
 
-def _cell(column: Column, of_units: bool, value: Any) -> Any:
+def _parse_cell(column: Column, of_units: bool, value: Any) -> Any:
     """Return a value as the table had it: a number, a row's unit, text, or nothing."""
     if value in ("", None):
         return None
@@ -260,7 +261,7 @@ def _cell(column: Column, of_units: bool, value: Any) -> Any:
     if not column.numeric:
         return str(value)
     try:
-        found = float(value)
+        number = float(value)
     except (TypeError, ValueError):
         return None
-    return int(found) if column.form.endswith("d") and found == found else found
+    return int(number) if column.form.endswith("d") and number == number else number

@@ -1,1 +1,1 @@
-"""From a tensile test to a law of rubber with its constants."""
+"""Laws of rubber, with their constants, from tensile tests."""

@@ -40,7 +40,7 @@ SOFTEST = 1e3  # Pa
 
 @dataclass(frozen=True)
 class Curve:
-    """stretch (n,), engineering stress (n,) [Pa]; file: where from."""
+    """A curve of stretch (n,) and engineering stress (n,) [Pa]; file: its source."""
 
     test: str
     stretch: np.ndarray
@@ -60,7 +60,7 @@ def read(
     require_choice("test", test, NAMES)
     path = Path(name)
     columns = read_columns(path, UNITS)
-    stretch, stress = _stretch(path, columns, gauge), _stress(path, columns, area)
+    stretch, stress = _read_stretch(path, columns, gauge), _read_stress(path, columns, area)
     if any(column in columns.names for column in TRUE) and not set(ENGINEERING) & set(columns.names):
         stress = stress / stretch
     if up_to is not None:
@@ -87,59 +87,56 @@ def require_loading(curve: Curve, columns: Columns | None = None) -> None:
         raise BadInput(
             f"{where}: stretch = {stretch.min():g}: must be greater than 0; of strains write strain"
         )
-    way = np.sign(stretch[np.argmax(np.abs(stretch - stretch[0]))] - stretch[0])
-    gone = np.maximum.accumulate(way * stretch)
-    back = gone - way * stretch > BACK * np.ptp(stretch)
-    if back.any():
-        row = int(np.argmax(back))
+    direction = np.sign(stretch[np.argmax(np.abs(stretch - stretch[0]))] - stretch[0])
+    reached = np.maximum.accumulate(direction * stretch)
+    reversed_rows = reached - direction * stretch > BACK * np.ptp(stretch)
+    if reversed_rows.any():
+        row = int(np.argmax(reversed_rows))
         line = columns.rows[row].where if columns is not None else f"{where}, row {row + 1}"
         raise BadInput(
             f"{line}: stretch goes back to {stretch[row]:.4g}: an unloading branch; keep one loading"
         )
-    pull = np.sign(stretch - 1.0) * stress
-    if pull.max() <= 0.0 or pull.min() < -0.05 * pull.max():
+    tension = np.sign(stretch - 1.0) * stress
+    if tension.max() <= 0.0 or tension.min() < -0.05 * tension.max():
         raise BadInput(
             f"{where}: stress {stress.min():g} to {stress.max():g} Pa: tension is > 0, compression < 0"
         )
-    for side, remedy in (
-        (1.0, "Leave that out by --up-to {:.4g}"),
-        (-1.0, "Leave out the rows below {:.4g}"),
-    ):
+    remedies = {1.0: "Leave that out by --up-to", -1.0: "Leave out the rows below"}
+    for side, remedy in remedies.items():
         strain = side * (stretch - 1.0)
-        strained = np.where(strain > 0.0, pull, 0.0)
-        if strained[np.argmax(strain)] < BROKEN * strained.max():
-            highest = stretch[np.argmax(strained)]
-            advice = remedy.format(highest)
-            raise BadInput(f"{where}: the stress falls after stretch {highest:.4g}: torn? {advice}")
-    if pull.max() < SOFTEST * np.abs(stretch - 1.0).max():
+        side_pull = np.where(strain > 0.0, tension, 0.0)
+        if side_pull[np.argmax(strain)] < BROKEN * side_pull.max():
+            peak = stretch[np.argmax(side_pull)]
+            raise BadInput(f"{where}: the stress falls after stretch {peak:.4g}: torn? {remedy} {peak:.4g}")
+    if tension.max() < SOFTEST * np.abs(stretch - 1.0).max():
         raise BadInput(
-            f"{where}: at most {pull.max():g} Pa, softer than any solid sheet: write the stress's unit in "
+            f"{where}: at most {tension.max():g} Pa, softer than any solid sheet: write the stress's unit in "
             "the header, as engineering_stress [MPa]"
         )
 
 
-def _stretch(path: Path, columns: Columns, gauge: float | None) -> np.ndarray:
-    found = next((name for name in (*STRETCH, *LENGTHS) if name in columns.names), None)
-    if found is None:
-        named = ", ".join(filter(None, columns.names)) or "none"
-        raise BadInput(f"{path}: columns {named}; needed is stretch, strain, true_strain or displacement")
-    if found in STRETCH:
-        return STRETCH[found](columns.numbers(found))
+def _read_stretch(path: Path, columns: Columns, gauge: float | None) -> np.ndarray:
+    column = next((name for name in (*STRETCH, *LENGTHS) if name in columns.names), None)
+    if column is None:
+        names = ", ".join(filter(None, columns.names)) or "none"
+        raise BadInput(f"{path}: columns {names}; needed is stretch, strain, true_strain or displacement")
+    if column in STRETCH:
+        return STRETCH[column](columns.numbers(column))
     if gauge is None:
-        raise BadInput(f"{path}: {found}: give the undeformed length between the grips, --gauge 33mm")
-    return 1.0 + columns.numbers(found) / gauge
+        raise BadInput(f"{path}: {column}: give the undeformed length between the grips, --gauge 33mm")
+    return 1.0 + columns.numbers(column) / gauge
 
 
-def _stress(path: Path, columns: Columns, area: float | None) -> np.ndarray:
-    found = [name for name in (*ENGINEERING, *TRUE, "force") if name in columns.names]
-    if not found and "stress" in columns.names:
+def _read_stress(path: Path, columns: Columns, area: float | None) -> np.ndarray:
+    present = [name for name in (*ENGINEERING, *TRUE, "force") if name in columns.names]
+    if not present and "stress" in columns.names:
         raise BadInput(
             f"{path}: stress: engineering or true? name the column engineering_stress or true_stress"
         )
-    if not found:
+    if not present:
         raise BadInput(f"{path}: needed is engineering_stress, true_stress or force")
-    values = columns.numbers(found[0])
-    if found[0] != "force":
+    values = columns.numbers(present[0])
+    if present[0] != "force":
         return values
     if area is None:
         raise BadInput(f"{path}: force: give the undeformed cross-section, --area 18mm²")

@@ -1,15 +1,15 @@
 """Constants of the laws of rubber from curves of incompressible sheets, with intervals.
 
-With x = I₁ − 3 and f, c₀₁ of `scenes.objects.material`, engineering stress is 2 (f′(x) + c₀₁ m)(λ − w):
+Engineering stress is 2 (f′(x) + c₀₁ m)(λ − w), with x = I₁ − 3 and f, c₀₁ of `scenes.objects.material`:
 
     uniaxial     m = 1/λ    w = λ⁻²    I₁ = λ² + 2/λ
     pure shear   m = 1      w = λ⁻³    I₁ = λ² + 1 + λ⁻²
     equibiaxial  m = λ²     w = λ⁻⁵    I₁ = 2λ² + λ⁻⁴
 
 Least squares of the misfit over each curve's largest stress, within the bounds of laws that pull at any
-stretch (c1, c2 of mooney-rivlin, c1 and c3 of yeoh not below 0). What is left is seldom noise alone:
-neighbours are alike, and n rows tell as much as n (1 − ρ)/(1 + ρ) independent ones, ρ the correlation of a
-row's misfit with the next one's (AR(1)); intervals are Student's with these. Sources: Treloar, The
+stretch (c1, c2 of mooney-rivlin, c1 and c3 of yeoh not below 0). Misfits of neighbouring rows are
+correlated: n rows count as n (1 − ρ)/(1 + ρ) independent ones, ρ the correlation of a row's misfit with the
+next one's (AR(1)), in the degrees of freedom of Student's intervals. Sources: Treloar, The
 Physics of Rubber Elasticity (1975); Bates and Watts, Nonlinear Regression Analysis (1988).
 """
 
@@ -51,7 +51,7 @@ def kinematics(test: str, stretch: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
 
 
 def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
-    """Engineering stress (n,) [Pa] of an incompressible sheet."""
+    """Return engineering stress (n,) [Pa] of an incompressible sheet."""
     m, w, x = kinematics(test, stretch)
     slope = of.c10 / (1.0 - x / of.limit) if of.limit else of.c10 + 2.0 * of.c20 * x + 3.0 * of.c30 * x * x
     return np.asarray(2.0 * (slope + of.c01 * m) * (stretch - w))
@@ -60,8 +60,9 @@ def stress(of: Energy, test: str, stretch: np.ndarray) -> np.ndarray:
 @dataclass(frozen=True)
 class Fit:
     """A law's constants with 95 % intervals; young: of small strains [Pa]; rms and largest misfit over the
-    largest stress; independent: rows that tell as much; correlation: of its first two constants; unstable:
-    why no material may have these constants; bound: those that are at their bounds."""
+    largest stress; independent: number of independent rows; correlation: of its first two constants;
+    unstable: the reason why no material may have the constants, "" if one may; bound: constants at their
+    bounds."""
 
     law: str
     constants: dict[str, float]
@@ -80,66 +81,67 @@ class Fit:
 
 
 def fit(law: str, curves: Sequence[Curve]) -> Fit | None:
-    """Return the law's constants nearest to the curves; None where there are too few rows."""
-    scale = [float(np.abs(curve.stress).max()) for curve in curves]
+    """Return the law's constants nearest to the curves, or None if there are too few rows."""
+    scales = [float(np.abs(curve.stress).max()) for curve in curves]
     rows, keys = sum(len(curve.stretch) for curve in curves), KEYS[law]
     if rows < len(keys) + (3 if len(keys) > 1 else 2):
         return None
-    size = max(s / float(np.abs(c.stretch - 1.0).max()) for s, c in zip(scale, curves, strict=True)) / 6.0
-    most = max(float(kinematics(c.test, c.stretch)[2].max()) for c in curves)
+    modulus = max(s / float(np.abs(c.stretch - 1.0).max()) for s, c in zip(scales, curves, strict=True)) / 6.0
+    invariant = max(float(kinematics(c.test, c.stretch)[2].max()) for c in curves)
 
     def constants(q: np.ndarray) -> list[float]:
         if law == "gent":
-            return [size * float(q[0]), most * (1.0 + float(np.exp(q[1])))]
-        return [size * float(v) / most**k for k, v in zip(POWERS[law], q, strict=True)]
+            return [modulus * float(q[0]), invariant * (1.0 + float(np.exp(q[1])))]
+        return [modulus * float(v) / invariant**k for k, v in zip(POWERS[law], q, strict=True)]
 
     def misfit(q: np.ndarray) -> np.ndarray:
-        of = energy(law, constants(q))
-        parts = zip(curves, scale, strict=True)
-        return np.concatenate([(stress(of, c.test, c.stretch) - c.stress) / s for c, s in parts])
+        law_energy = energy(law, constants(q))
+        pairs = zip(curves, scales, strict=True)
+        return np.concatenate([(stress(law_energy, c.test, c.stretch) - c.stress) / s for c, s in pairs])
 
-    ends = tuple(map(np.array, _BOUNDS[law]))
-    start = np.clip([1.0, *[0.01] * (len(keys) - 1)], *ends)
-    found = least_squares(misfit, start, bounds=ends, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12)
-    left, rss = found.fun, float(found.fun @ found.fun)
-    last = np.cumsum([len(curve.stretch) for curve in curves])[:-1]
-    independent = max(sum(map(_independent, np.split(left, last))), len(keys) + 2.0)
-    spread = rss / (rows - len(keys)) * rows / independent
-    covariance = np.linalg.pinv(found.jac.T @ found.jac) * spread
-    reach = float(student.ppf(0.975, independent - len(keys))) * np.sqrt(np.diag(covariance))
-    between = {}
+    bounds = tuple(map(np.array, _BOUNDS[law]))
+    start = np.clip([1.0, *[0.01] * (len(keys) - 1)], *bounds)
+    solution = least_squares(misfit, start, bounds=bounds, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    misfits, rss = solution.fun, float(solution.fun @ solution.fun)
+    splits = np.cumsum([len(curve.stretch) for curve in curves])[:-1]
+    independent = max(sum(map(_count_independent, np.split(misfits, splits))), len(keys) + 2.0)
+    variance = rss / (rows - len(keys)) * rows / independent
+    covariance = np.linalg.pinv(solution.jac.T @ solution.jac) * variance
+    half_widths = float(student.ppf(0.975, independent - len(keys))) * np.sqrt(np.diag(covariance))
+    intervals = {}
     for i, key in enumerate(keys):
-        by = reach[i] * np.eye(len(keys))[i]
-        low_end, high_end = (constants(np.clip(found.x + step, *ends))[i] for step in (-by, by))
-        between[key] = low_end, high_end
-    at = np.isclose(found.x, ends[0], atol=1e-5) | np.isclose(found.x, ends[1], rtol=1e-3)
-    best = found.x if law == "gent" else np.where(at, 0.0, found.x)
-    kept = dict(zip(keys, constants(best), strict=True))
-    alone = float(np.sqrt(np.prod(np.diag(covariance)[:2])))
+        change = half_widths[i] * np.eye(len(keys))[i]
+        low_end, high_end = (constants(np.clip(solution.x + step, *bounds))[i] for step in (-change, change))
+        intervals[key] = low_end, high_end
+    at_bound = np.isclose(solution.x, bounds[0], atol=1e-5) | np.isclose(solution.x, bounds[1], rtol=1e-3)
+    best = solution.x if law == "gent" else np.where(at_bound, 0.0, solution.x)
+    values = dict(zip(keys, constants(best), strict=True))
+    product = float(np.sqrt(np.prod(np.diag(covariance)[:2])))
     return Fit(
         law=law,
-        constants=kept,
-        intervals=between,
-        young=3.0 * energy(law, list(kept.values())).shear,
+        constants=values,
+        intervals=intervals,
+        young=3.0 * energy(law, list(values.values())).shear,
         rms=float(np.sqrt(rss / rows)),
-        largest=float(np.abs(left).max()),
+        largest=float(np.abs(misfits).max()),
         independent=independent,
-        correlation=float(covariance[0, 1]) / alone if len(keys) > 1 and alone > 0.0 else 0.0,
-        unstable=_unstable(law, kept),
-        bound=tuple(key for key, there in zip(keys, at, strict=True) if there),
+        correlation=float(covariance[0, 1]) / product if len(keys) > 1 and product > 0.0 else 0.0,
+        unstable=_find_instability(law, values),
+        bound=tuple(key for key, held in zip(keys, at_bound, strict=True) if held),
     )
 
 
 def chosen(fits: Sequence[Fit], curves: Sequence[Curve]) -> Fit | None:
-    """Return the law that the curves ask for: of few constants among those that fit well. One kind of test
-    does not tell c1 from c2 of mooney-rivlin, which is then left out; so is a limit that is not seen."""
-    several = len({curve.test for curve in curves}) > 1
-    able = [f for f in fits if not f.unstable and "limit" not in f.bound]
-    able = [f for f in able if several or f.law != "mooney-rivlin"]
-    if not able:
+    """Return the law with the fewest constants among the laws that fit well, None without one. One kind of
+    test cannot distinguish c1 from c2 of mooney-rivlin, which is then left out; so is a limit beyond the
+    data."""
+    several_tests = len({curve.test for curve in curves}) > 1
+    candidates = [f for f in fits if not f.unstable and "limit" not in f.bound]
+    candidates = [f for f in candidates if several_tests or f.law != "mooney-rivlin"]
+    if not candidates:
         return None
-    enough = max(AS_GOOD * min(f.rms for f in able), GOOD)
-    return min((f for f in able if f.rms <= enough), key=lambda f: (len(f.constants), f.rms))
+    allowed = max(AS_GOOD * min(f.rms for f in candidates), GOOD)
+    return min((f for f in candidates if f.rms <= allowed), key=lambda f: (len(f.constants), f.rms))
 
 
 _BOUNDS = {
@@ -150,15 +152,15 @@ _BOUNDS = {
 }
 
 
-def _independent(left: np.ndarray) -> float:
-    """Rows that tell as much as these, whose neighbours are alike."""
-    whole = float(left @ left)
-    alike = float(left[1:] @ left[:-1]) / whole if whole > 0.0 else 0.0
-    alike = min(max(alike, 0.0), 1.0 - 1.0 / len(left))
-    return len(left) * (1.0 - alike) / (1.0 + alike)
+def _count_independent(misfits: np.ndarray) -> float:
+    """Return the number of independent rows with as much information as correlated misfits."""
+    total = float(misfits @ misfits)
+    correlation = float(misfits[1:] @ misfits[:-1]) / total if total > 0.0 else 0.0
+    correlation = min(max(correlation, 0.0), 1.0 - 1.0 / len(misfits))
+    return len(misfits) * (1.0 - correlation) / (1.0 + correlation)
 
 
-def _unstable(law: str, constants: dict[str, float]) -> str:
+def _find_instability(law: str, constants: dict[str, float]) -> str:
     try:
         Material.model_validate({"law": law, "poisson": POISSON, "density": 1000.0, **constants})
     except (BadInput, ValueError) as error:

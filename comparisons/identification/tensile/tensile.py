@@ -1,40 +1,48 @@
-"""Which law of rubber a tensile test asks for, with its constants: `sheetbench identify --tensile`."""
+"""Choice of a law of rubber, and its constants, from a tensile test: `sheetbench identify --tensile`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from comparisons.identification.tensile.curves import Curve, read, require_loading
-from comparisons.identification.tensile.laws import (
-    LAWS,
-    POISSON,
-    Fit,
-    chosen,
-    fit,
-)
+from comparisons.identification.tensile.laws import LAWS, POISSON, Fit, chosen, fit
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
-from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, number, unit
+from sheetbench.answers.table import MEGAPASCALS, NUMBER, PERCENT, Column, Table, TableUnit, number, unit
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Material
 
-CHOSEN = "← fits with the fewest constants"
-INTERVAL = (NUMBER(".4g", "value"), NUMBER(".4g", "from"), NUMBER(".4g", "to"))
-CONSTANTS = ("law", "constant", "unit", *INTERVAL)
-MISFITS = (
-    *("law", MEGAPASCALS(".4g", "E at small strain"), PERCENT(".2f", "misfit"), PERCENT(".2f", "largest")),
-    Column("remark", prose=True),
-)
+
+@dataclass(frozen=True)
+class ConstantRow:
+    """A constant of a law with its 95 % interval."""
+
+    law: str
+    constant: str
+    unit: TableUnit
+    value: Annotated[float, NUMBER(".4g")]
+    low: Annotated[float, NUMBER(".4g", "from")]
+    high: Annotated[float, NUMBER(".4g", "to")]
+
+
+@dataclass(frozen=True)
+class MisfitRow:
+    """Misfits of a law over the largest stress; remark: the choice, or the reason against the law."""
+
+    law: str
+    young: Annotated[float, MEGAPASCALS(".4g", "E at small strain")]
+    rms: Annotated[float, PERCENT(".2f", "misfit")]
+    largest: Annotated[float, PERCENT(".2f")]
+    remark: Annotated[str, Column(prose=True)]
 
 
 @dataclass(frozen=True, repr=False)
 class TensileFit(Answer):
-    """curves: as measured; fits: of every law; law: the one that the curves ask for, None where no law fits
-    stably."""
+    """Fits of all laws to measured curves; law: the chosen one, None if no law fits stably."""
 
     file_name = "tensile"
     curves: tuple[Curve, ...]
@@ -43,11 +51,11 @@ class TensileFit(Answer):
 
     @property
     def covered(self) -> dict[str, tuple[float, float]]:
-        """The least and largest stretch of each kind of test."""
+        """Least and largest stretch of each kind of test."""
         kinds = {curve.test for curve in self.curves}
-        each = {kind: np.concatenate([c.stretch for c in self.curves if c.test == kind]) for kind in kinds}
+        data = {kind: np.concatenate([c.stretch for c in self.curves if c.test == kind]) for kind in kinds}
         return {
-            kind: (float(min(s.min(), 1.0)), float(max(s.max(), 1.0))) for kind, s in sorted(each.items())
+            kind: (float(min(s.min(), 1.0)), float(max(s.max(), 1.0))) for kind, s in sorted(data.items())
         }
 
     def material(self, density: float = 1000.0, poisson: float = POISSON) -> Material:
@@ -76,26 +84,24 @@ class TensileFit(Answer):
         return "Tensile test", f"{rows} rows, stretch covered: {covered}", ""
 
     def tables(self) -> tuple[Table, ...]:
-        """Return a row per constant of every law, and how well each fits and what speaks against it."""
-        constants = [
-            (f.law, key, unit("" if key == "limit" else "Pa"), value, *f.intervals[key])
+        """Return a row per constant of every law, and a row per law with its misfit and a remark."""
+        constants = (
+            ConstantRow(f.law, key, unit("" if key == "limit" else "Pa"), value, *f.intervals[key])
             for f in self.fits
             for key, value in f.constants.items()
-        ]
-        misfits = [
-            (f.law, f.young, f.rms, f.largest, CHOSEN if f is self.law else _against(f)) for f in self.fits
-        ]
-        caption = "Constants and their 95 % intervals"
+        )
+        misfits = [MisfitRow(f.law, f.young, f.rms, f.largest, _remark_on(f, self.law)) for f in self.fits]
+        caption = "Misfit, of the largest stress (root mean square)"
         return (
-            Table.listed(caption, CONSTANTS, constants, "constants", grouped=True),
-            Table.listed("Misfit, of the largest stress (root mean square)", MISFITS, misfits, "misfits"),
+            Table.of(ConstantRow, constants, "Constants and their 95 % intervals", "constants", grouped=True),
+            Table.of(MisfitRow, misfits, caption, "misfits"),
         )
 
     def figures(self) -> tuple[Picture, ...]:
         return (Picture("tensile", "comparisons.identification.figure:tensile", (self,)),)
 
     def notes(self) -> list[str]:
-        """Return what to put into a scene, and what the curves leave open."""
+        """Return lines for a scene with the chosen law, and the reason for leaving out mooney-rivlin."""
         sentences = []
         mooney = next((f for f in self.fits if f.law == "mooney-rivlin"), None)
         if mooney is not None and len(self.covered) == 1:
@@ -121,7 +127,9 @@ class TensileFit(Answer):
         return self.law is not None
 
 
-def _against(fit: Fit) -> str:
+def _remark_on(fit: Fit, law: Fit | None) -> str:
+    if fit is law:
+        return "← fits with the fewest constants"
     if fit.unstable:
         return "its stress falls below 0 at some stretch, or it has no stiffness at rest: scenes refuse it"
     if "limit" in fit.bound:
@@ -139,12 +147,11 @@ def identify_tensile(
     """Return the constants of every law of rubber from curves or files (`curves.read`), and the law to take.
 
     area [m²]: undeformed cross-section, for columns of force; gauge [m]: undeformed length, for columns of
-    displacement; up_to: largest stretch of files to fit. Raises BadInput for what is no loading branch of
-    engineering or true stress.
-    """
-    given = [curves] if isinstance(curves, Curve | str) else list(curves)
-    measured = tuple(c if isinstance(c, Curve) else read(c, area, up_to, gauge) for c in given)
+    displacement; up_to: largest stretch of files to fit. Raises BadInput for a curve other than a loading
+    branch of engineering or true stress."""
+    inputs = [curves] if isinstance(curves, Curve | str) else list(curves)
+    measured = tuple(c if isinstance(c, Curve) else read(c, area, up_to, gauge) for c in inputs)
     for curve in measured:
         require_loading(curve)
-    fits = tuple(found for law in LAWS if (found := fit(law, measured)) is not None)
+    fits = tuple(result for law in LAWS if (result := fit(law, measured)) is not None)
     return TensileFit(measured, fits, chosen(fits, measured))

@@ -61,7 +61,7 @@ def test_a_field_over_the_cells_is_smoothed_until_noise_is_left(tmp_path):
         data = Displacements(POINTS, values + noise * rng.standard_normal(values.shape))
         found = identify(SCENE, data, "material.young=field", Lattice((9, 9, 2)), uncertainty=noise)
         assert found.converged and found.chi == pytest.approx(1.0, abs=0.02)
-        told.append((found.told, -np.median(found.resolved)))
+        told.append((found.determined, -np.median(found.resolved)))
     assert told[0] < told[1]
     off = np.abs(found.values / (rise * SCENE.material.young) - 1.0)
     assert off.mean() < 0.05 < np.abs(rise / rise.mean() - 1.0).mean()

@@ -219,7 +219,7 @@ def test_bricks_show_their_outer_faces_alone():
     corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], dtype=float)
     bricks = np.array([[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]])
     mesh = FieldMesh(corners, [("hexahedron", bricks)], {"displacement": np.zeros((12, 3))})
-    assert len(sheets._quads(mesh)) == 10
+    assert len(sheets._find_quads(mesh)) == 10
 
 
 @pytest.mark.parametrize(("cells", "lines"), [(1, 2), (8, 9), (64, 9), (256, 9), (257, 258)])
@@ -231,7 +231,7 @@ def test_a_fine_regular_surface_shows_its_shape_by_nine_lines(cells, lines):
     mesh = FieldMesh(
         points, [("quad", first + np.array([0, 1, cells + 2, cells + 1]))], {"displacement": 0.0 * points}
     )
-    sides = points[sheets._shape_lines(mesh)]
+    sides = points[sheets._find_sides(mesh)]
     assert len(np.unique(sides[sides[:, 0, 0] == sides[:, 1, 0], 0, 0])) == lines
 
 

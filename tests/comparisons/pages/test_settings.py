@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.pages.page import _short
+from comparisons.pages.page import _shorten
 
 
 @pytest.mark.parametrize(
@@ -17,4 +17,4 @@ from comparisons.pages.page import _short
     ],
 )
 def test_settings_have_units_and_several_grids_are_not_the_sides_of_one(key, value, shown):
-    assert _short(key, value) == shown
+    assert _shorten(key, value) == shown

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.comparison.branches import shape
+from comparisons.comparison.branches import Field, shape
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Lattice
@@ -30,6 +30,7 @@ from sheetbench.scenes.meaning.region import resultant
 from sheetbench.scenes.objects.material import UNDAMPED
 
 CREEPING, LONG, SAMPLES = 10.0, 1000.0, 100  # drag over ω; duration times ω; frames of the motion
+LEFT = 0.1  # change of a displacement from the end of the motion, over the largest one
 
 
 def require_settling(models: Iterable[Resolved[Any]]) -> None:
@@ -41,16 +42,24 @@ def require_settling(models: Iterable[Resolved[Any]]) -> None:
 
 def solved_from_motion(model: Resolved[Any], name: str) -> SolvedHere:
     """Return the row of a model whose statics start from the end of its damped motion."""
-    near, fault = settled(model)
+    near, at_rest, fault = settled(model)
     row = here(model, name, near=near)
-    settings = row.answer.settings | {"begun": "motion"}
-    remarks = (*row.answer.remarks, *filter(None, [fault]))
-    return replace(row, answer=replace(row.answer, settings=settings, remarks=remarks))
+    points = model.scene.probe_points()
+    shape_at_rest, answer = at_rest(points), row.answer
+    difference = np.abs(answer.displacement(points) - shape_at_rest).max(initial=0.0)
+    left = bool(difference > LEFT * np.abs(shape_at_rest).max(initial=0.0))
+    remarks = (
+        *answer.remarks,
+        *filter(None, [fault, "statics left the shape at the end of the motion" * left]),
+    )
+    return replace(
+        row, answer=replace(answer, settings=answer.settings | {"begun": "motion"}, remarks=remarks)
+    )
 
 
-def settled(model: Resolved[Any]) -> tuple[Any, str]:
-    """Return the final shape of a model's damped motion, for `near` of its statics, and a clause on a motion
-    that failed, else ""."""
+def settled(model: Resolved[Any]) -> tuple[Any, Field, str]:
+    """Return the final shape of a model's damped motion, for `near` of its statics, the displacement of its
+    mid-surface, and a clause on a motion that failed, else ""."""
     scene, is_lattice = model.scene, isinstance(model.spec, Lattice)
     settings = {"integrator": "esdirk"} if is_lattice and not scene.actuators else {}
     rate = frequency(scene)
@@ -61,9 +70,8 @@ def settled(model: Resolved[Any]) -> tuple[Any, str]:
     motion = simulate(damped, duration, doing, every=duration / SAMPLES, frames=SAMPLES, **settings)
     fault = "" if motion.succeeded else f"its motion did not come to rest: {'; '.join(motion.complaints())}"
     last = motion.extra["frames"][-1]
-    if is_lattice:
-        return last, fault
-    return partial(shape, scene, partial(motion.extra["sample"], last)), fault
+    at_rest = partial(motion.extra["sample"], last)
+    return last if is_lattice else partial(shape, scene, at_rest), at_rest, fault
 
 
 def frequency(scene: Scene) -> float:

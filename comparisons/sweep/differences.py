@@ -1,4 +1,4 @@
-"""The error and the relative difference of displacements, defined in `comparisons.comparison.errors`."""
+"""The error and the relative difference of displacements, at probes and over the sheet."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def far(error: float, field_error: float, bar: float | None = None) -> bool:
 
 
 def error(displacement: np.ndarray, reference: np.ndarray) -> float | None:
-    """Return the error of displacements: the largest difference over the largest displacement.
+    """Return the largest component of a difference over the largest component of the reference.
 
     Parameters
     ----------

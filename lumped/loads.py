@@ -140,10 +140,14 @@ class Loads:
     def force(self, u: np.ndarray, time: float | None = None) -> np.ndarray:
         """Return the external force (n, 3) [N] at a displacement u (n, 3) [m] and a time [s]; without a time
         (statics) with the last factor of every history. The array must not be written to."""
-        force = self.last_dead
-        if time is not None and not self.potential:
-            force = np.sum([part.factor(time) * part.dead for part in self._parts.values()], axis=0)
+        force = self.dead_at(time)
         return force + self.followers(u, time) if self.follow else force
+
+    def dead_at(self, time: float | None = None) -> np.ndarray:
+        """Return the part (n, 3) [N] of the force that does not follow the sheet; not to be written to."""
+        if time is None or self.potential:
+            return self.last_dead
+        return np.sum([part.factor(time) * part.dead for part in self._parts.values()], axis=0)
 
     def work(self, u: np.ndarray) -> float:
         """Return the work [J] of conservative loads from the flat sheet to u (n, 3) [m], Σ z F_z of a

@@ -185,21 +185,21 @@ class Comparison(Compared, Answer):
     def sensitivities(self) -> dict[str, dict[str, dict[str, float | None]]]:
         """Relative change of each probe's |u| by 1 % of a parameter (d|u|/dθ · θ/100|u|), by model, parameter
         and probe, for models with derivatives. Raises BadInput for unknown parameters."""
-        found: dict[str, dict[str, dict[str, float | None]]] = {}
-        named = {name: parameter(self.scene, name) for name in self.sensitive_to}
+        result: dict[str, dict[str, dict[str, float | None]]] = {}
+        values = {name: parameter(self.scene, name).value for name in self.sensitive_to}
         for solution in self.solutions:
             if solution.sensitivity is None or solution.status is not Status.CONVERGED:
                 continue
-            of, points = solution.sensitivity(), self.scene.probe_points()
+            sensitivity, points = solution.sensitivity(), self.scene.probe_points()
             u = solution.displacement(points)
-            size = np.sum(u**2, axis=1)
-            still = size <= (ROUND_OFF * np.abs(u).max()) ** 2
-            found[solution.model] = {}
-            for name, one in named.items():
-                share = 0.01 * one.value * np.sum(u * of.moved_at(points, name), axis=1)
-                shares = zip(self.scene.probes, share / np.where(still, 1.0, size), still, strict=True)
-                found[solution.model][name] = {n: None if held else float(by) for n, by, held in shares}
-        return found
+            square = np.sum(u**2, axis=1)
+            at_rest = square <= (ROUND_OFF * np.abs(u).max()) ** 2
+            result[solution.model] = {}
+            for name, value in values.items():
+                change = 0.01 * value * np.sum(u * sensitivity.moved_at(points, name), axis=1)
+                shares = zip(self.scene.probes, change / np.where(at_rest, 1.0, square), at_rest, strict=True)
+                result[solution.model][name] = {n: None if rest else float(s) for n, s, rest in shares}
+        return result
 
     def _displacements(self) -> Table:
         differences = {(d.probe, d.of): d.relative for d in self.differences}

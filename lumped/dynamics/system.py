@@ -180,10 +180,8 @@ class System:
     def loads(self, times: Sequence[float]) -> np.ndarray:
         """Return the loads that do not follow the sheet at times [s], (k, n, 3) [N], (1, n, 3) if
         constant."""
-        dead = self.problem.loads.dead
-        if not self.working:
-            return dead[None].copy()
-        return np.array([self.external(dead, time) for time in times])
+        loads = self.problem.loads
+        return np.array([loads.dead_at(time) for time in (times if self.working else times[:1])])
 
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """Return the external force (size, 3) [N]."""

@@ -153,6 +153,16 @@ def test_derivatives_are_those_of_equilibria_found_anew(name, model):
     assert np.sum(weights * sheet.sample(moved, points)) == pytest.approx(shares @ by, rel=1e-6)
 
 
+def test_all_derivatives_take_one_factorisation_and_no_solve(monkeypatch):
+    scene, factored, factor = load("one-edge-clamped"), [], SheetSensitivity._factor
+    answer = fem_reference.solve(scene, "shell", elements=4)
+    monkeypatch.setattr(SheetSensitivity, "_factor", lambda *at: factored.append(at) or factor(*at))
+    monkeypatch.setattr("fem_reference.discrete.answer.traced", None)
+    gradient = dict(answer.sensitivity().at_points(scene.probe_points()[-1:], np.eye(3)[2:]))
+    assert len(gradient) >= 10 and len(factored) == 1
+
+
+@pytest.mark.nightly  # a ratio of times
 def test_value_and_derivatives_cost_less_than_two_solves_and_a_third():
     """The shell of 8: all numbers and fields of an answer, in the same process."""
     scene, costs = load("one-edge-clamped"), []

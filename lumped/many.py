@@ -120,7 +120,7 @@ def _ends(count: int, parts: int) -> list[tuple[int, int]]:
 
 
 def _plain(sheet: Differentiable) -> bool:
-    """Whether a lattice has springs of the linear laws alone, dead loads and a small matrix."""
+    """Return whether a lattice has only springs of linear laws, only dead loads and a small matrix."""
     problem = sheet.problem
     others = problem.items or problem.assembly.coupling is not None or problem.loads.follow
     linear = problem.assembly.conservative and not problem.assembly.any_strain

@@ -92,7 +92,6 @@ FUNCTIONS = (  # the verbs that are functions too
 )
 VERBS = (*FUNCTIONS, "live", "study")
 SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")  # of the reference set
-REPRODUCED = ("errors", "tables", "settling", "nearest")  # parts of the published study
 VARIED = {  # of a scene's stability
     "load": "loads, times the scene's",
     "slenderness": "thickness, times the scene's",

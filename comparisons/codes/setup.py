@@ -93,7 +93,7 @@ class CodeSetup(CellInScene):
         return (Table.of(Parameter, self.keys, caption, "parameters", fields=shown),)
 
     def result(self) -> str:
-        """The parameters, and the error that stays."""
+        """Return the parameters and the remaining error in a phrase."""
         off = "" if self.limit_error is None else f"; {100 * self.limit_error:.1f} % off on the finest mesh"
         return ", ".join(f"{key.name} {number(key.value, '.4g')} {key.unit}" for key in self.keys) + off
 
@@ -130,7 +130,7 @@ class CodeSetup(CellInScene):
         return notes
 
     def _refuse_files(self) -> str:
-        """Why the code gets no files, "" where it does."""
+        """Return the reason why the code has no files for the scene, "" if it has them."""
         if self.scene.masses and self.code.name not in OWN_MASSES:
             return f"mass: {self.code.title} has one density, no vertex a mass of its own"
         if self.scene.obstacles and self.code.name not in OBSTACLES:
@@ -138,7 +138,7 @@ class CodeSetup(CellInScene):
         return refusal(self.scene)
 
     def _warn_of_depth(self) -> str:
-        """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
+        """Return a warning that two layers of springs are too shallow for the load, "" if they are not.
 
         A spring from layer to layer rises by the height H over a side l of a square. At a remaining rise s
         its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts instead.
@@ -227,7 +227,7 @@ def setup(
 
 
 def squares_of(grid: GridLike) -> int:
-    """The squares of vertices requested as a grid is, 9 for 8 squares. Raises BadInput for another form."""
+    """Return the number of squares for a grid of vertices, 8 for 9. Raises BadInput for another form."""
     if grid is None:
         return SQUARES
     if not str(grid).isdigit():

@@ -73,8 +73,8 @@ class Panel:
     """The sliders of a scene."""
 
     def __init__(self, scene: Scene, elements: Count = ELEMENTS, lattice: Lattice | None = None) -> None:
-        """elements, lattice: to start with; k has a slider where the lattice has one. Raises BadInput for a
-        value beyond the bounds."""
+        """Start with the given elements and lattice; k has a slider if the lattice has one. Raises BadInput
+        for a value out of bounds."""
         self.scene = scene
         self._lattice = lattice or Lattice()
         self.sliders = {s.name: s for s in _make_sliders(scene, elements, self._lattice)}
@@ -172,5 +172,6 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
 
 
 def most(sheet: Sheet, cap: int) -> int:
-    """Near-square cells along the shorter side of a sheet, of which it has cap² in all at most."""
+    """Return the largest number of near-square cells along the shorter side of a sheet with at most cap²
+    cells in all."""
     return max((n for n in range(2, cap + 1) if prod(near_square(sheet, n)) <= cap**2), default=2)

@@ -91,7 +91,7 @@ class Desk(BaseHTTPRequestHandler):
     server_version = sys_version = ""
 
     def log_message(self, *_: object) -> None:
-        """Requests are not logged: the address in them is secret."""
+        """Log no request: the address in it is secret."""
 
     def refusal(self, own: bool = False) -> HTTPStatus | None:
         """Put the path below the token in `what`, and return why none is answered; own: it needs an origin.

@@ -74,7 +74,7 @@ class ExpectedError:
         return f"expected grid error about {few(100 * self.value)} %{lower} ({self.reason})"
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return plain data for JSON."""
         return {**vars(self), "grid": list(self.grid), "reason": self.reason}
 
 

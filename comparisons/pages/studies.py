@@ -149,7 +149,7 @@ class Study:
         return f"{self.place}/{name}" if self.place else name
 
     def ending(self, *suffixes: str) -> list[str]:
-        """Names of its files that end so."""
+        """Return names of its files with the given suffixes."""
         return [name for name in self.files if name.lower().endswith(suffixes)]
 
 

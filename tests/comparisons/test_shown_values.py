@@ -13,7 +13,6 @@ from comparisons.cli import modes
 from comparisons.models.spec import Elements, spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.modes.state_space import Linearisation
-from comparisons.reproduction import findings
 from comparisons.sweep.solved import Ask
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import trials
@@ -89,13 +88,3 @@ def test_grading_changes_no_rate_and_a_calibration_does():
         for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
     )
     assert trials._time_series(even) == trials._time_series(graded) != trials._time_series(other)
-
-
-def test_a_fit_is_shown_in_the_tables_units(monkeypatch):
-    sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
-    numbers = {"by": "misfit", "rms": 0.25, "error": 0.5, "met": 9, "entries": 12}
-    fit = {"tests": [1], "sense": 0, "kind": "sheet", "table": "experiment", "sought": sought, **numbers}
-    monkeypatch.setattr(findings, "stored", lambda: {"made": "", "fits": [fit]})
-    row = shown(findings.nearest_table())
-    assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
-    assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "9 of 12")

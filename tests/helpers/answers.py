@@ -8,7 +8,7 @@ from sheetbench.answers.solution import Solution
 
 
 def once(ask: Callable[..., Solution]) -> Callable[..., Solution]:
-    """A question that was answered before has the same answer, whoever follows its progress."""
+    """Return the stored answer of an earlier equal question, with or without progress."""
     answers: dict[str, Solution] = {}
 
     def answer(model: Resolved[Any], *name: str) -> Solution:

@@ -14,7 +14,7 @@ FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """A Chromium that draws in three dimensions without a graphics card."""
+    """Yield a Chromium with three-dimensional drawing without a graphics card."""
     found = next(filter(None, map(shutil.which, PROGRAMS)), None)
     if found is None:
         pytest.skip("needs a browser: install the Debian package chromium")
@@ -44,7 +44,7 @@ class Watch:
 
 @contextmanager
 def opened(browser: Any, address: str, **context: Any) -> Iterator[tuple[Any, Watch]]:
-    """A page and what it does, in a context of its own, without a net unless `offline` says otherwise."""
+    """Yield a page and a watch on it, in a context of its own, offline unless `offline` is false."""
     own = browser.new_context(**{"offline": True, "viewport": {"width": 1000, "height": 900}, **context})
     page = own.new_page()
     watch = Watch(page)
@@ -56,7 +56,7 @@ def opened(browser: Any, address: str, **context: Any) -> Iterator[tuple[Any, Wa
 
 
 def pixels(page: Any, selector: str) -> np.ndarray:
-    """What an element looks like, (height, width, 3), 0 to 255."""
+    """Return the pixels of an element, (height, width, 3), 0 to 255."""
     from io import BytesIO
 
     from matplotlib.image import imread
@@ -66,5 +66,5 @@ def pixels(page: Any, selector: str) -> np.ndarray:
 
 
 def colours(picture: np.ndarray) -> int:
-    """How many different colours a picture has."""
+    """Return the number of different colours in a picture."""
     return len(np.unique(picture.reshape(-1, 3), axis=0))

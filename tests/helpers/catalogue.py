@@ -119,17 +119,17 @@ CASES = [
 
 
 def scene_of(name: str) -> Scene:
-    """The scene of a name."""
+    """Return the scene of a name."""
     return OTHERS.get(name) or load(name)
 
 
 def answer(name: str, model: str) -> dict[str, Any]:
-    """What `document` says of a scene by a model."""
+    """Return the `document` of a scene's solution by a model."""
     return document(scene_of(name), MODELS[model](scene_of(name)))
 
 
 def document(scene: Scene, found: Solution) -> dict[str, Any]:
-    """How the solution ended and what it took, and the probes' displacements [m]."""
+    """Return the status and cost of the solution, and the probes' displacements [m]."""
     displacement = found.displacement(scene.probe_points()).round(DIGITS).tolist()
     return {
         "status": str(found.status),
@@ -141,7 +141,7 @@ def document(scene: Scene, found: Solution) -> dict[str, Any]:
 
 
 def table() -> dict[str, Any]:
-    """Scene → model → what it says."""
+    """Return the answers by scene and model."""
     found: dict[str, Any] = {name: {} for name, _ in CASES}
     for name, model in CASES:
         found[name][model] = answer(name, model)
@@ -149,7 +149,7 @@ def table() -> dict[str, Any]:
 
 
 def written(found: dict[str, Any]) -> str:
-    """The table as JSON, a line for every answer."""
+    """Return the table as JSON, a line for every answer."""
     scenes = []
     for name, models in found.items():
         lines = (f" {json.dumps(model)}: {json.dumps(one)}" for model, one in models.items())

@@ -46,7 +46,8 @@ class _Pen:
 
 
 def draw(seed: int, oblique: bool = False) -> Document:
-    """A sheet with holes, patches or an outline, held and loaded at edges and in parts, that bends little."""
+    """Draw a sheet with holes, patches or an outline, supports and loads at edges and in parts, that bends
+    little."""
     pen = _Pen(seed, oblique)
     lx = round(0.1 + 0.04 * pen.random.random(), int(pen.either(2, 5)))
     ly = round(lx * pen.either(1.0, 0.75, 1.5, 1.8), 6)
@@ -87,8 +88,8 @@ def draw(seed: int, oblique: bool = False) -> Document:
 
 
 def furnish(seed: int) -> Document:
-    """A drawn sheet with some of what else a scene may have: natural strain or pretension, heat, held points,
-    tilted and sliding edges, supports that move, forces, payloads, obstacles."""
+    """Draw further parts for a drawn sheet: natural strain or pretension, heat, held points, tilted and
+    sliding edges, moving supports, forces, payloads, obstacles."""
     pen, scene = _Pen(10_000 + seed, True), draw(seed, seed % 2 > 0)
     for patch in scene.get("patches", []) if seed % 4 < 2 else []:  # as thick all over, which the solid takes
         patch["young"] = patch.pop("thickness", 0.0) * 3e9 or patch["young"]
@@ -148,11 +149,11 @@ class Change:
         self.corner, self.lengths = corners.min(axis=0), np.ptp(corners, axis=0)
 
     def places(self, points: Any) -> Any:
-        """Where plan points come to lie."""
+        """Return the images of plan points."""
         return (np.array(points) @ self.plan.T - self.corner).tolist()
 
     def edge(self, name: str) -> str:
-        """Which edge becomes of one."""
+        """Return the image of an edge."""
         outward = self.map @ EDGES[name].outward
         return next(each for each, edge in EDGES.items() if outward @ edge.outward > 0.5)
 
@@ -169,7 +170,7 @@ class Change:
         return (self.map @ vector).tolist()
 
     def form(self, form: Any) -> Any:
-        """A symmetric form in the plan, [xx, yy, xy]."""
+        """Return the image of a symmetric form in the plan, [xx, yy, xy]."""
         xx, yy, xy = form
         (xx, xy), (_, yy) = self.plan @ [[xx, xy], [xy, yy]] @ self.plan.T / self.size**2
         return [xx, yy, xy]
@@ -178,7 +179,7 @@ class Change:
         return [self.up / self.size * k for k in self.form(curvature)]
 
     def part(self, part: Document) -> Document:
-        """A support, a load, a patch, a cutout, the sheet and what else there is."""
+        """Return the image of a support, a load, a patch, a cutout, the sheet or another part."""
         changes = {
             "at": lambda at: self.places([at])[0],
             "components": lambda names: ["xyz"[np.abs(self.map["xyz".index(k)]).argmax()] for k in names],
@@ -206,7 +207,7 @@ class Change:
         return {key: changes[key](value) if key in changes else value for key, value in part.items()}
 
     def scene(self, scene: Document) -> Document:
-        """The scene; enlarged with forces that bend it to a shape ten times as large."""
+        """Return the image of the scene, with forces for which its deformed shape is the image too."""
         lists = {key: [*map(self.part, each)] for key, each in scene.items() if isinstance(each, list)}
         sheet = self.part(scene["sheet"]) | dict(zip(("length_x", "length_y"), self.lengths, strict=True))
         fall = self.map @ scene["gravity"]["acceleration"] / self.size**2
@@ -215,7 +216,7 @@ class Change:
 
 
 def halved(scene: Document) -> Document:
-    """Every load as two of half of it."""
+    """Return the loads, each as two of half its size."""
     values = ("force", "force_per_length", "value")
     loads = scene["loads"]
     halves = [
@@ -225,7 +226,7 @@ def halved(scene: Document) -> Document:
 
 
 def in_text(scene: Document) -> Document:
-    """Numbers of the sheet and its material with units; an outline is in metres."""
+    """Return sheet and material, their numbers with units; an outline is in metres."""
     if "outline" in scene["sheet"]:
         return {}
     lengths = {key: f"{1e3 * scene['sheet'][key]!r} mm" for key in ("length_x", "length_y", "thickness")}
@@ -234,7 +235,7 @@ def in_text(scene: Document) -> Document:
 
 
 def patched(scene: Document) -> Document:
-    """A patch of the sheet's own material, where it may have one."""
+    """Return a patch of the sheet's own material, where one is allowed."""
     if "pretension" in scene.get("natural", {}):
         return {}
     lx, ly = scene["sheet"]["length_x"], scene["sheet"]["length_y"]
@@ -244,14 +245,14 @@ def patched(scene: Document) -> Document:
 
 
 def in_time(scene: Document) -> Document:
-    """A history of 1 of everything that may have one."""
+    """Return the tables that may have a history, each with one of 1."""
     history = {"history": {"time": [0.0, 1.0], "factor": [1.0, 1.0]}}
     tables = {key: {**scene[key], **history} for key in ("gravity", "natural", "temperature") if key in scene}
     return {**tables, "loads": [{**load, **history} for load in scene["loads"]]}
 
 
 def not_warmed(scene: Document) -> Document:
-    """No warmer than it was, where nothing else is said."""
+    """Return a temperature change of zero for a scene without one."""
     if "temperature" in scene:
         return {}
     return {"temperature": {"change": 0.0}, "material": {"expansion": 1e-4, **scene["material"]}}

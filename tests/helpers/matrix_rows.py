@@ -20,7 +20,7 @@ Row = tuple[tuple[str, ...], ...]
 
 
 def pairwise(dimensions: Sequence[Sequence[tuple[str, ...]]]) -> list[Row]:
-    """Rows that have every pair of values of two dimensions."""
+    """Return rows with every pair of values of two dimensions."""
     left = {
         (i, a, j, b)
         for i, j in combinations(range(len(dimensions)), 2)
@@ -45,7 +45,7 @@ def _pair(i: int, a: int, j: int, b: int) -> tuple[int, int, int, int]:
 
 
 def named(row: Row) -> str:
-    """A row as a test's name."""
+    """Return a row as a test's name."""
     return " ".join(part for options in row for part in options) or "-"
 
 

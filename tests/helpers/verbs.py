@@ -72,8 +72,8 @@ def write_inputs(folder: Path) -> None:
 
 
 def in_python(verb: str, words: Iterable[str]) -> Any:
-    """The document of the verb's function; the words of the command line, as the terminal reads them, are its
-    arguments."""
+    """Return the document of the verb's function, called with the words of the command line as parsed for the
+    terminal."""
     function, command = getattr(sheetbench, verb), verb_group((verb,)).commands[verb]
     parameters = command.make_context(verb, list(words)).params
     known = signature(function).parameters
@@ -82,7 +82,8 @@ def in_python(verb: str, words: Iterable[str]) -> Any:
 
 
 def values_of(found: Any, left_out: tuple[str, ...], name: str = "") -> Iterator[tuple[str, Any]]:
-    """Every number and text of a document with the path to it, but below keys with one of these words."""
+    """Yield every number and text of a document with the path to it, except below keys with one of these
+    words."""
     if isinstance(found, dict):
         for key, value in found.items():
             if not any(word in key for word in left_out):
@@ -134,7 +135,7 @@ class Kept:
         return json.loads(self.printed)
 
     def shown(self, columns: int, encoding: str = "utf-8") -> str:
-        """What a terminal of so many columns shows of the answer."""
+        """Return the answer as shown on a terminal of so many columns."""
         assert self.answer is not None
         stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding, errors=app.PLAIN)
         with pytest.MonkeyPatch.context() as patch:

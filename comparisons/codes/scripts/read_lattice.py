@@ -9,7 +9,7 @@ import numpy as np
 
 
 def differences(lattice):
-    """Matrices that take positions (n, 3) to the vectors that springs see: along links, across cells."""
+    """Return matrices from positions (n, 3) to the springs' vectors: along links, across cells."""
     of = np.eye(len(lattice["positions"]))
     found = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
     for kind in ("area", "strain", "coupling", "rubber", "face"):
@@ -26,7 +26,8 @@ def dot(a, b):
 
 
 def gradient(lattice, along, u):
-    """Energy [J] of springs and contact and its gradient (n, 3) [N] at displacements u (n, 3) [m]."""
+    """Return the energy [J] of springs and contact and its gradient (n, 3) [N] at displacements u (n, 3)
+    [m]."""
     x = lattice["positions"] + u
     k, r = lattice["link_stiffness"][:, None], along["link"] @ x
     stretch = np.sqrt(dot(r, r)) - lattice["link_rest_length"][:, None]
@@ -53,7 +54,7 @@ def gradient(lattice, along, u):
 
 
 def contact(lattice, along, x, g):
-    """Energy [J] of points that touch obstacles; its gradient is added to g."""
+    """Return the energy [J] of points on obstacles; add its gradient to g."""
     place, normal, radius, area, offset, k = np.hsplit(lattice["contact_values"], [3, 6, 7, 8, 9])
     y, curved = along["contact"] @ x - place, radius > 0
     y = y - curved * dot(y, normal) * normal
@@ -64,7 +65,7 @@ def contact(lattice, along, x, g):
 
 
 def rubber(lattice, along, x, g):
-    """Energy [J] of rubber membranes at places x (n, 3) [m]; its gradient is added to g."""
+    """Return the energy [J] of rubber membranes at positions x (n, 3) [m]; add its gradient to g."""
     (over_a, over_b), warp, a0 = along["rubber"], along["rubber_warp"], lattice["rubber_rest"][:, None]
     aa, bb = (dot(side @ lattice["positions"], side @ lattice["positions"]) for side in (over_a, over_b))
     c10, c01, c20, c30, v, limit, ka, kb = np.hsplit(lattice["rubber_stiffness"], 8)
@@ -92,7 +93,7 @@ def rubber(lattice, along, x, g):
 
 
 def faces(lattice, along, x, g):
-    """Energy [J] of upright faces sheared; its gradient is added to g."""
+    """Return the energy [J] of upright faces in shear; add its gradient to g."""
     (over_a, over_b), k, a0 = along["face"], lattice["face_stiffness"][:, None], lattice["face_rest"][:, None]
     a, b, up = over_a @ x, over_b @ x, over_b @ lattice["positions"]
     long, high = np.sqrt(dot(a, a)), np.sqrt(dot(up, up))
@@ -103,7 +104,8 @@ def faces(lattice, along, x, g):
 
 
 def neighbours(along):
-    """Which masses (n, n) share a spring, and groups of masses of which no two have one in common."""
+    """Return a mask of masses (n, n) with a common spring, and groups of masses of which no two share a
+    neighbour."""
     pairs = [
         abs(each) if kind in ("link", "contact") else sum(map(abs, each))
         for kind, each in along.items()
@@ -121,7 +123,7 @@ def neighbours(along):
 
 
 def stiffness(lattice, along, shared, u, force, h):
-    """The tangent (3 n, 3 n) [N/m] by differences; the masses of a group move together."""
+    """Return the tangent (3 n, 3 n) [N/m] by differences; the masses of a group are moved together."""
     (near, groups), n = shared, len(u)
     found = np.zeros((n, 3, n, 3))
     for group in groups:
@@ -134,7 +136,7 @@ def stiffness(lattice, along, shared, u, force, h):
 
 
 def part_of(lattice, along, part, share):
-    """The lattice with a part of its natural state and with a share of the stiffness of contact."""
+    """Return the lattice with parts of its natural state and of the stiffness of contact."""
     found = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
     rest = lattice["positions"]
     flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
@@ -149,7 +151,8 @@ def part_of(lattice, along, part, share):
 
 
 def equilibrium(lattice, along, steps=1):
-    """Displacements (n, 3) at rest: Newton, the tangent by differences, supports by multipliers.
+    """Return displacements (n, 3) at rest by Newton's method, the tangent by differences, supports by
+    multipliers.
 
     The load comes in `steps`, in twice as many where Newton does not converge; then contact stiffens.
     """

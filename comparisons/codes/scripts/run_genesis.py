@@ -37,7 +37,7 @@ SHARE = 0.5  # of the step at which a constraint cannot be as stiff as it is to 
 
 
 def hinge_weights(places, hinges, w):
-    """W of every hinge."""
+    """Return the weight W of every hinge."""
     a, b, *opposite = places[hinges.T]
     edge = b - a
     long = (edge**2).sum(axis=1)

@@ -80,11 +80,11 @@ class Triangles:
         return np.vstack([cells[:, :3], cells[:, [0, 2, 3]]])
 
     def edge(self, name: str) -> np.ndarray:
-        """Nodes on an edge, along it."""
+        """Return the nodes on an edge, along it."""
         return np.unique(self.plan.facets[:, self.plan.boundaries[name]])
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Corners of the cells at plan points (p, 2) [m], and their bilinear shares, (p, 4)."""
+        """Return the corners of the cells at plan points (p, 2) [m], and their bilinear weights, (p, 4)."""
         element, place = locate(self.plan, points)
         shares = 0.25 * np.prod(1.0 + SITES[:4] * place.T[:, None], axis=2)
         return self.plan.t[:, element].T, shares

@@ -88,7 +88,7 @@ def solve_stages(
 
 @njit
 def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.ndarray) -> None:
-    """û and v̂ of stage i."""
+    """Set û and v̂ of stage i."""
     start, speed = stages.u[0].reshape(-1), stages.v[0].reshape(-1)
     for row in range(len(base_u)):
         base_u[row], base_v[row] = start[row], speed[row]
@@ -111,7 +111,7 @@ def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.nd
 
 @njit
 def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray) -> None:
-    """What the accelerations of the stages before let expect."""
+    """Set u of stage i, extrapolated from the accelerations of earlier stages."""
     u[:] = base_u
     for j in range(i):
         weight = step.guesses[i, j] / (step.damping_coefficient * step.damping_coefficient)

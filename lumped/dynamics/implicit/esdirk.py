@@ -72,7 +72,7 @@ class Esdirk(Integrator):
 
     @classmethod
     def default_step(cls, period: object, limit: object) -> float:
-        """Infinite: an adaptive run finds its first step where it begins."""
+        """Return ∞: an adaptive run computes its first step at its start."""
         return np.inf
 
     def forget(self) -> None:
@@ -125,8 +125,8 @@ class Esdirk(Integrator):
         return (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._small
 
     def _begin(self, state: State) -> None:
-        """What the error is relative to before anything has moved, and the first step [s]: parts of how far
-        the forces lead until all rests, were it linear, and of the time in which they get there."""
+        """Set the first step [s] and the displacement that errors are relative to before any motion:
+        fractions of the time and distance to equilibrium if the lattice were linear."""
         system, still = self.system.within(state), np.zeros_like(state.u)
         problem = system.problem
         force = system.unbalanced(state.u, still, state.time)
@@ -142,7 +142,8 @@ class Esdirk(Integrator):
         self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
-        """The state with its acceleration from now on, and how long nothing changes its course at most."""
+        """Return the state with its acceleration just after its time, and the largest step [s] before the
+        next kink of a load or motion."""
         system, now = self.system, state.time
         if not len(system.kinks):
             return state, at_most
@@ -156,7 +157,7 @@ class Esdirk(Integrator):
         return state, min([at_most, *(ahead[:1] - now)])
 
     def _solved(self, state: State, h: float, tolerance: float | None) -> EsdirkStep:
-        """A step with all its stages."""
+        """Return a step with all its stages."""
         by, step = 1.0 / (GAMMA * h), EsdirkStep(self.system, state, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
             middle = state.u + 0.5 * h * (state.v + 0.25 * h * state.a)
@@ -170,8 +171,8 @@ class Esdirk(Integrator):
         return step
 
     def _shifts(self, times: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
-        """How far supports are from where the stages' velocities lead, (7, n, 3) [m], and their velocities
-        beside that at the start, (7, n, 3) [m/s]; both empty where none moves."""
+        """Return the offsets of the supports from the positions by the stages' velocities, (7, n, 3) [m], and
+        of their velocities from those at the start, (7, n, 3) [m/s]; both empty without moving supports."""
         system, motion, began = self.system, self.system.prescribed, float(times[0])
         if not motion.moving:
             nothing = np.empty((0, *system.problem.loads.dead.shape))

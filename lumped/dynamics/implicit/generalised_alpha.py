@@ -68,7 +68,7 @@ class GeneralisedAlpha(Integrator):
         return Advance(after, 0.5 * h * (before + power) + relaxed, work(self.system, state, after))
 
     def _old(self, state: State, h: float) -> np.ndarray:
-        """The algorithm's acceleration at a step's start."""
+        """Return the algorithm's acceleration at a step's start."""
         if self._algorithm is None:
             return state.a
         return shifted(state.a, self._algorithm, h, self._before)

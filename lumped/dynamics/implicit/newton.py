@@ -81,8 +81,8 @@ class Newton:
         weigh: Callable[[np.ndarray], np.ndarray] = lambda correction: correction,
         stale: float | None = None,
     ) -> np.ndarray:
-        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
-        (size, 3) from the solution of the linear system; stale: as of the iteration, else its own. Raises
+        """Return u with Tᵀ residual(u) = 0. key: factors of another key are not reused; weigh: map from the
+        solution of the linear system to the correction (size, 3); stale: by default the iteration's. Raises
         StepFailed."""
         problem, stale = self._system.problem, self._stale if stale is None else stale
         small = self.tolerance if tolerance is None else tolerance
@@ -114,9 +114,9 @@ class Newton:
         tolerance: float | None = None,
         stale: float | None = None,
     ) -> np.ndarray:
-        """u of the equation. tolerance [m]: of the last correction, stale: the ratio of successive ones from
-        which on factors are made anew, else the iteration's own. Raises StepFailed, or
-        SingularMatrixError."""
+        """Return u of the equation. tolerance [m]: of the last correction; stale: ratio of successive
+        corrections above which the factors are renewed; both by default the iteration's. Raises StepFailed,
+        or SingularMatrixError."""
         limits = self._limits(tolerance, stale)
         found = self._solve_compiled(equation, guess, limits)
         if found is not None:
@@ -173,7 +173,7 @@ class Newton:
         return NewtonLimits(small, self._system.problem.size, ratio, CORRECTIONS)
 
     def near(self, mass_coefficient: float) -> bool:
-        """Whether the compiled iteration's factors serve an equation with this c₂."""
+        """Return whether the compiled iteration's factors can be reused for an equation with this c₂."""
         return (
             self._factored is not None and abs(mass_coefficient / self._factored - 1.0) < REUSE_FACTORS_WITHIN
         )
@@ -198,8 +198,8 @@ class Newton:
     def _solve_compiled(
         self, equation: StepEquation, guess: np.ndarray, limits: NewtonLimits
     ) -> np.ndarray | None:
-        """u of the equation, None where that is not compiled, or its tangent not positive definite. Raises
-        StepFailed."""
+        """Return u of the equation, None if it is not compiled or its tangent is not positive definite.
+        Raises StepFailed."""
         if (compiled := self._compiled) is None:
             return None
         u, left, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
@@ -211,8 +211,8 @@ class Newton:
         return None
 
     def _solved(self, solved: bool, left: int) -> bool:
-        """Whether the compiled iteration is done; if it is not, its factors do not serve. Raises StepFailed
-        where no corrections are left."""
+        """Return whether the compiled iteration has converged, and drop its factors otherwise. Raises
+        StepFailed if no corrections are left."""
         if not solved:
             self._factored = None
             if left == 0:

@@ -264,7 +264,7 @@ def test_an_option_has_one_name_and_one_default_in_command_and_function():
             assert usual is Parameter.empty or usual in (options[name].default, None, False), name
 
 
-@pytest.mark.parametrize("verb", [*VERBS, "reproduction", *STUDIES])
+@pytest.mark.parametrize("verb", [*VERBS, *STUDIES])
 def test_every_list_takes_commas_and_repetition(verb, tmp_path):
     """In Python lists; `--elements 8x4` too, and no help text has the same default twice."""
     module = import_module(f"comparisons.cli.{verb}") if verb in VERBS else module_of(verb)

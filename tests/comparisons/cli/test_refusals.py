@@ -107,7 +107,7 @@ ROWS = {
     f"{SIMULATE} --every 1e-11": "samples, 1e-11 s apart; 1e+07 at most",
     f"simulate {TWO} --lumped 3 --duration 1e9": "samples",
     f"stability {ONE} --vary load,weather": "vary = 'weather': unknown, choose one of load",
-    "study nosuch": "study = 'nosuch': unknown, choose one of reproduction, ",
+    "study nosuch": "study = 'nosuch': unknown, choose one of codes, ",
     "study promises --wrongly": "No such option: --wrongly; see sheetbench study promises --help",
     "study promises --model lumped": "model = 'lumped': unknown, choose one of plate, shell",
     "score --suite all": "statics, motion, modes",

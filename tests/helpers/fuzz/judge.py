@@ -28,7 +28,7 @@ class Outcome:
 
 
 def outcome(arguments: Sequence[str], folder: Path) -> Outcome:
-    """A command carried out in this process, in a folder of its own; terminal and pipe as for a program."""
+    """Run a command in this process, in a folder of its own; terminal and pipe as for a program."""
     out, err = io.StringIO(), io.StringIO()
     before, status = Path.cwd(), 0
     os.chdir(folder)
@@ -48,7 +48,8 @@ def outcome(arguments: Sequence[str], folder: Path) -> Outcome:
 
 
 def held(found: Outcome, about: object) -> None:
-    """The documented statuses, no traceback; a refusal in one line at the end; no raw control characters."""
+    """Assert a documented status, no traceback, a refusal in one line at the end, no raw control
+    characters."""
     said = f"{about!r} → {found.status}\n{found.out[-2000:]}\n{found.err[-6000:]}"
     assert found.status in (DONE, BAD_INPUT, NOT_CONVERGED), said
     assert "Traceback" not in found.out + found.err, said
@@ -61,7 +62,7 @@ def held(found: Outcome, about: object) -> None:
 
 
 def document(found: Outcome) -> Any:
-    """The JSON document of a run that has one; every number in it is finite."""
+    """Return the JSON document of a run, if any; assert that every number in it is finite."""
 
     def refuse(word: str) -> None:
         raise AssertionError(f"{word} in {found.out[:2000]}")
@@ -70,7 +71,7 @@ def document(found: Outcome) -> Any:
 
 
 def in_balance(answer: dict[str, Any]) -> None:
-    """What is called converged is in balance, and every probe of it has a place."""
+    """Assert that a converged answer is in balance, with a displacement of every probe."""
     for solution in answer["solutions"]:
         require_balanced(solution)
         places = np.ravel(list(solution["probes"].values())).tolist()

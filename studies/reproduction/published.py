@@ -54,5 +54,5 @@ def published_errors() -> dict[tuple[int, str, str], float]:
 
 
 def _rows(name: str) -> list[dict[str, str]]:
-    text = (resources.files("comparisons.reproduction") / "data" / name).read_text(encoding="utf-8")
+    text = (resources.files("studies.reproduction") / "data" / name).read_text(encoding="utf-8")
     return list(csv.DictReader(text.splitlines()))

@@ -208,10 +208,7 @@ def refusal(scene: Scene) -> str:
         return "their clamps stand upright, and supports stay where they are"
     if shapes := ", ".join(word for word in scene.shaped_by.split(", ") if word not in HELD):
         return f"{shapes}: their meshes are of whole rectangles"
-    if any(
-        not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
-        for load in scene.loads
-    ):
+    if any(not isinstance(load, PointLoad | EdgeLoad) or load.follows for load in scene.loads):
         return "weight and forces at points and along edges only"
     return ""
 

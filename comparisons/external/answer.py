@@ -68,7 +68,7 @@ def refusal(
         return f"it is not given the material's law '{law}': {accepted}"
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
         return chains
-    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
+    if any(isinstance(load, EdgeLoad) and load.follows for load in scene.loads):
         return moments
     if any(support.motion is not None for support in scene.supports):
         return (

@@ -21,7 +21,7 @@ from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import EDGES, Scene, Sheet
 from sheetbench.scenes.meaning.parameters import parameter, put
-from sheetbench.scenes.objects.grid import MASSES, near_square
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES, near_square
 
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second
@@ -160,7 +160,7 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
             limit = max(2 * abs(curve.value), 1.5 / min(scene.sheet.lengths))
             yield Slider(curve.name, f"Curvature of edge {edge}", "1/m", 1.0, -limit, limit, curve.value)
     masses, finest = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
-    grid, grading = str(lattice.grid or min(MASSES, masses)), lattice.grading or 0.0
+    grid, grading = str(lattice.grid or min(DEFAULT_MASSES, masses)), lattice.grading or 0.0
     if not (grid.isdecimal() and isinstance(grading, float | int) and isinstance(elements, int)):
         settings = f"grid = {grid}, grading = {grading}, elements = {counted(elements)}"
         raise BadInput(f"{settings}: a number each (near-square cells, all edges)")

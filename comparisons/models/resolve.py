@@ -23,7 +23,7 @@ from sheetbench.choices import (
     AUTO,
     BRANCHES,
     CALIBRATIONS,
-    MASSES,
+    MASS_DISTRIBUTIONS,
     REFERENCES,
     listed,
     method_of,
@@ -192,7 +192,7 @@ def _check_lattice(spec: Lattice) -> None:
     require_positive("layer-distance", spec.layer_distance, "m")
     require_choice("branch", spec.branch, BRANCHES)
     if spec.masses is not None:
-        require_choice("--masses", spec.masses, MASSES)
+        require_choice("--masses", spec.masses, MASS_DISTRIBUTIONS)
     if graded := fixed(spec.grading):
         takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
         named = method_of(spec.calibration, spec.k)

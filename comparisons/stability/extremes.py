@@ -124,7 +124,7 @@ def _grids(scene: Scene, models: Mapping[str, Any], truth: Any) -> Iterator[Cell
     reference = Ask(scene, truth.but(count=meshes[finest]), label=f"{truth.model} {finest} cells")
     for model, spec in models.items():
         for count in CELLS.get(model) or sorted(meshes):
-            sized = spec.but(grid=count + 1) if spec.MASSES else spec.but(count=meshes[count])
+            sized = spec.but(grid=count + 1) if spec.IS_LATTICE else spec.but(count=meshes[count])
             tags = _tags("grid", cells=count, model=model)
             yield Ask(scene, sized, tags=tags, label=f"{model} {count} cells"), reference
 

@@ -108,7 +108,7 @@ class Limit:
     @property
     def meshes(self) -> str:
         """Masses or elements along the shorter side of the meshes with an answer, as text."""
-        counts = (min(row.counts) + row.ask.spec.MASSES for row in self.rows if row.usable)
+        counts = (min(row.counts) + row.ask.spec.IS_LATTICE for row in self.rows if row.usable)
         return ", ".join(map(str, counts))
 
 

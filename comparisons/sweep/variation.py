@@ -1,7 +1,7 @@
 """Models on variants of a scene: the computation and the answer of `sheetbench sweep`.
 
 Every variant is solved by every model, through a campaign's store; errors at the probes and over the sheet
-are against the reference on the variant (`comparisons.comparison.errors`).
+are against the reference on the variant (`comparisons.sweep.differences`).
 """
 
 from __future__ import annotations

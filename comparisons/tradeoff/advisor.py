@@ -25,7 +25,7 @@ from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene
-from sheetbench.scenes.objects.grid import MASSES
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: smaller effects are left out
 LINEAR_LOAD_NUMBER = 2.0  # linear models are not tried above it
@@ -155,7 +155,7 @@ def _advice(
 ) -> Advice:
     needs, left_out = _effects(trials, chosen, tolerance or 0.01)
     spec = None if chosen is None else chosen.ask.spec
-    grid = (spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1)).grid
+    grid = (spec if isinstance(spec, Lattice) else trials.lattice(DEFAULT_MASSES - 1)).grid
     lattice = trials.resolved(trials.springs.but(grid=grid))
     reasons = tuple(f"{name.removesuffix('_reason')}: {text}" for name, text in lattice.reasons.items())
     return Advice(trials, tolerance, budget, chosen, message, needs, left_out, reasons)

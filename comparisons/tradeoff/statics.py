@@ -1,6 +1,6 @@
 """Error against cost of many models of one scene, measured in one way against the finest reference.
 
-    error        at the probes, and field_error over the sheet (`comparisons.comparison.errors`)
+    error        at the probes, and field_error over the sheet (`comparisons.sweep.differences`)
     uncertainty  the reference's error bar by the grid convergence index, from meshes of n, ¾ n and ½ n
                  elements per side (`fem_reference.uncertainty`)
     cost         see `comparisons.sweep.task`

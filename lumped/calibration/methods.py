@@ -21,7 +21,7 @@ from sheetbench.errors import Impossible
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.objects.grading import Graded
-from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES, Grid, grid_of
 
 SPRINGS: dict[str, Callable[..., Springs | tuple[Springs, list[str]]]] = {  # or springs with notes
     "moduli": fit_moduli,
@@ -81,7 +81,7 @@ def given(
     """
     if (table := scene.springs) is None:
         raise Impossible(f"scene '{scene.name}' has no [springs] table")
-    requested = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
+    requested = grid_of(scene.sheet, grid if grid is not None else table.grid or DEFAULT_MASSES)
     if table.grid not in (None, requested):
         named, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
         raise Impossible(

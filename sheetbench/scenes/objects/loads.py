@@ -24,6 +24,11 @@ class _Load(Loading):
         alone = "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
         yield self.hold and self.history and alone
 
+    @property
+    def follows(self) -> bool:
+        """Whether the load follows the sheet as it moves; a dead load keeps its direction."""
+        return False
+
 
 class Initial(Frozen):
     """The shape that a motion starts from; statics do not depend on it."""
@@ -62,6 +67,11 @@ class EdgeLoad(_Load):
         given = self.model_fields_set & {"force_per_length", "moment_per_length"}
         yield not given and "needs force_per_length [N/m] or moment_per_length [N·m/m]"
 
+    @property
+    def follows(self) -> bool:
+        """Whether there is a moment, which turns with the edge."""
+        return self.moment_per_length != 0.0
+
 
 class AreaLoad(_Load):
     """A dead force on the whole sheet, or on a part of it."""
@@ -81,6 +91,11 @@ class Pressure(_Load):
     """> 0 pushes along the sheet's current normal, at first +z; per current area."""
     where: Shape | None = None
     """The part that is loaded; the whole sheet unless given."""
+
+    @property
+    def follows(self) -> bool:
+        """Whether the load follows the sheet: always."""
+        return True
 
 
 AnyLoad = PointLoad | EdgeLoad | AreaLoad | Pressure

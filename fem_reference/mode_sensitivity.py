@@ -30,7 +30,7 @@ class FrequencyGradient(SheetGradient):
 
     def __init__(self, sheet: DiscreteShell, q: np.ndarray, at: float, mode: np.ndarray, squared: float):
         if sheet.contacts:
-            raise Impossible("derivatives of frequencies: not beside obstacles, on which they may jump")
+            raise Impossible("derivatives of frequencies: not with obstacles, where frequencies may jump")
         scale = 1.0 / (4.0 * np.pi * np.sqrt(squared))  # df/dω²
         step = SMALL * sheet.scene.sheet.thickness / np.abs(sheet.displacement(mode)).max()
         of = SheetSensitivity(sheet, q, at)

@@ -73,9 +73,11 @@ class SheetSensitivity:
         try:
             found = self.sheet.solver().factor(matrix)
         except SingularMatrixError as error:
-            raise NoEquilibrium(f"{self.sheet.model}: singular: it has no derivatives: {error}") from None
+            raise NoEquilibrium(
+                f"{self.sheet.model}: no derivatives, the tangent is singular: {error}"
+            ) from None
         if found.negative > 0 or found.zero > 0:
-            raise NoEquilibrium(f"{self.sheet.model}: unstable: its derivatives are of another branch")
+            raise NoEquilibrium(f"{self.sheet.model}: no derivatives, the equilibrium is unstable")
         return found
 
     @cached_property

@@ -84,7 +84,9 @@ class Contact(LatticeItem):
         sides = across * [line.widths.max() for line in lattice.lines]
         if obstacle.radius < THINNEST * sides.max():
             thin = f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm"
-            raise BadInput(f"{thin}, which would step over it; {THINNEST:g} of that or more, or a finer grid")
+            raise BadInput(
+                f"{thin}, which would miss it; take {THINNEST:g} of a cell or more, or a finer grid"
+            )
         self._scene, self._lattice, self._sides = scene, lattice, sides
         self.surface = CellSurface(lattice.grid, lattice.layer_distance)
         self.nodes = lattice.mid_cells.reshape(-1, 4 * lattice.grid[2])

@@ -156,9 +156,9 @@ class Equilibrium:
             with one_blas_thread():  # that of the path's end may be older
                 found = self.problem.system.factor(self.problem.tangent(self.u, 1.0))
         except SingularMatrixError as error:
-            raise NoEquilibrium(f"lumped: singular: it has no derivatives: {error}") from None
+            raise NoEquilibrium(f"lumped: no derivatives, the tangent is singular: {error}") from None
         if self.problem.descends and found.negative > 0:
-            raise NoEquilibrium("lumped: unstable: its derivatives are of another branch")
+            raise NoEquilibrium("lumped: no derivatives, the equilibrium is unstable")
         return found
 
     @cached_property
@@ -314,7 +314,7 @@ def both_sides(
     step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
     step = share * abs(value) or step
     if step == 0.0:
-        raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
+        raise BadInput(f"parameter {name!r} is zero: differences need a scale")
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
     for end in ends:
         if of_springs:

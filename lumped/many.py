@@ -92,7 +92,7 @@ def solve_many(
     sheet = Differentiable(scene, calibration, calibrate)
     counts = {len(values) for values in designs.values()}
     if len(counts) != 1:
-        raise BadInput(f"designs: {sorted(counts)} values: as many of each are needed")
+        raise BadInput(f"designs: {sorted(counts)} values: equal numbers of values are needed")
     start, count = sheet.solve({}), counts.pop()
     out, done = np.full((count, *start.shape), np.nan), np.zeros(count, dtype=bool)
     together = designs.keys() <= {YOUNG, FORCES} and _plain(sheet)

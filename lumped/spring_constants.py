@@ -304,5 +304,5 @@ def require_cells(table: SpringSet, grid: Grid, whose: str) -> None:
                 key = f"{name}.{axis}" if axis else name
                 cells = " rows of ".join(map(str, shape))
                 raise BadInput(
-                    f"{whose}springs.{key}: {cells} cells are wanted on {grid[0]}x{grid[1]} masses"
+                    f"{whose}springs.{key}: {cells} cells are needed on {grid[0]}x{grid[1]} masses"
                 )

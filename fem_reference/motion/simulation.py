@@ -139,7 +139,7 @@ def require_moving(scene: Scene, model: str) -> None:
     >>> fem_reference.require_moving(load("two-edges-settling"), "shell")
     """
     if model not in SHEETS:
-        raise BadInput(f"reference = '{model}': {listed(SHEETS)} can move")
+        raise BadInput(f"reference = '{model}': has no motion; choose from {', '.join(SHEETS)}")
     for name, actuator in scene.named_actuators().items() if model != "shell" else ():
         if isinstance(actuator, EdgeMotion):
-            raise BadInput(f"actuator {name}: the {model} in motion has no edge motions; the shell has")
+            raise BadInput(f"actuator {name}: the {model} has no edge motions in a run; the shell has")

@@ -105,9 +105,9 @@ class DiscreteShell(DiscreteElements):
         if law == STRAIN_LAW:
             element_section = grown(section or section_at(scene, nodes), scene, nodes)
             return Element.build(nodes, element_section), self.natural_of(scene)
-        require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
+        require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for all sheets")
         if section is not None:
-            raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
+            raise BadInput(f"law = '{law}': a given section needs the law '{STRAIN_LAW}'")
         return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
 
     def again(self) -> Callable[[], Self] | None:

@@ -75,7 +75,7 @@ def with_twist(
             edge[whole_row], edge_exists = strips.reduction(*ends, far, False)
             if not (strip_exists and edge_exists):
                 name = "a rim" if drawn else f"{'xy'[axis]}{int(far)}"
-                notes.append(f"no twisting stiffness of the cells along {name} makes their edge right")
+                notes.append(f"no twisting stiffness of the cells along {name} corrects their edge")
             inside, stretch = cell != outer, of_axis.stretch[place, cell]
             if drawn:
                 strain = along_edge(axis, stretch[inside])

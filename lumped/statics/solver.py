@@ -201,7 +201,7 @@ def solve_from_best_start(
     """Return the path to the equilibrium at full load, started from `near` (n, 3) [m] or, for a large
     lattice, from the equilibrium of the lattice with half as many cells a side."""
     if near is not None and near.shape != problem.loads.dead.shape:
-        raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
+        raise BadInput(f"near: shape {near.shape}; the lattice needs {problem.loads.dead.shape}")
     if problem.assembly.coupling is not None:  # its unknowns depend on the grid
         return solve_path(problem, progress=progress)
     may_start_coarser = near is None and not problem.items  # contact points differ on another grid

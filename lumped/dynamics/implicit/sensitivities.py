@@ -44,11 +44,11 @@ Change = np.ndarray  # δ s, δ s′ and δ s″, (3, n, 3)
 def require_followed(names: Sequence[str], integrator: str, keeping: Mapping[str, Any]) -> None:
     """Raise BadInput for derivatives that a run cannot have."""
     if names and integrator != Esdirk.name:
-        raise BadInput(f"sensitivities: integrator = 'esdirk' has them, '{integrator}' has none")
+        raise BadInput(f"sensitivities: need integrator = 'esdirk', not '{integrator}'")
     if len(names) > MOST:
-        raise BadInput(f"sensitivities: {len(names)} parameters, {MOST} at most, and no adjoint in time")
+        raise BadInput(f"sensitivities: {len(names)} parameters; {MOST} at most")
     if names and keeping.get("store"):
-        raise BadInput("sensitivities: a run that is stored cannot take them up: leave the store out")
+        raise BadInput("sensitivities: not for a stored run; leave the store out")
 
 
 class Sided:
@@ -62,7 +62,7 @@ class Sided:
         self.systems, states = zip(*made, strict=True)
         places = [system.problem.prescribed(1.0) for system in self.systems]
         if self.systems[0].items or not np.array_equal(*places):
-            raise BadInput(f"sensitivities: {name}: not by supports' places, nor beside obstacles")
+            raise BadInput(f"sensitivities: {name}: not by positions of supports, nor with obstacles")
         self.half, self.largest, self.memories = 0.5 * over, 0.0, [state.memory for state in states]
         high_state, low_state = (np.array([state.u, state.v, state.a]) for state in states)
         self.change: Change = 0.5 * (high_state - low_state)

@@ -102,7 +102,7 @@ def stiffened(
             require_way(path, state, load_factor)
             path.put(state, load_factor)
         except LoadStepFailed as failure:
-            return Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
+            return Fault(failure.status, f"descent with the full stiffness of contact: {failure}")
         if (fault := path.inspect(path)) is not None:
             return fault
     return None

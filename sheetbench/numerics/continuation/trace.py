@@ -64,10 +64,10 @@ def trace_path(
             try:
                 path.limit = path.factorisations + path.limits.factorisations
                 path.put(settle(path, 1.0), 1.0)
-                path.notes.append("begun along the buckling mode of an unstable equilibrium")
+                path.notes.append("started along the buckling mode of an unstable equilibrium")
                 path.status, note = stability(path)
             except LoadStepFailed as failure:
-                note = f"{note}; beside it {failure}"
+                note = f"{note}; from its buckling mode: {failure}"
         path.notes.extend([note] if note else [])
         return path
 
@@ -93,8 +93,8 @@ def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault
     if path.load_factor > 0.0:
         limited = f", after {ended.careful} factorisations" if path.factorisations >= path.limit else ""
         path.notes.append(
-            f"small load steps end at load factor {path.load_factor:.4g}{limited}: this equilibrium, which "
-            "large ones led to, may be on another branch"
+            f"small load steps end at load factor {path.load_factor:.4g}{limited}: this equilibrium, "
+            "reached by large ones, may be on another branch"
         )
     path.put(reached, 1.0)
     return None

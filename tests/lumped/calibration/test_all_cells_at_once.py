@@ -64,7 +64,7 @@ def test_a_table_is_read_as_it_was_written(name):
     table = SpringSet.model_validate(found.springs.model_dump())
     assert table == found.springs == Springs.read(table).table()
     require_cells(table, found.grid, "")
-    with pytest.raises(BadInput, match="cells are wanted on"):
+    with pytest.raises(BadInput, match="cells are needed on"):
         require_cells(table, (found.grid[0] + 1, *found.grid[1:]), "")
 
 

@@ -28,11 +28,11 @@ REMEDIES = {
     errno.EFBIG: "raise the limit, or write elsewhere",
     **dict.fromkeys((errno.EACCES, errno.EPERM), f"make it writable, or {ELSEWHERE}"),
     errno.EROFS: ELSEWHERE,
-    errno.EISDIR: "a folder stands there: move it away",
+    errno.EISDIR: "a folder is there: move it away",
     errno.ENAMETOOLONG: "choose a shorter one",
-    errno.EEXIST: f"a file stands there: {ELSEWHERE}",
+    errno.EEXIST: f"a file is there: {ELSEWHERE}",
     errno.ENOTDIR: f"a part of the path is a file: {ELSEWHERE}",
-    errno.ELOOP: "a link stands there: remove it",
+    errno.ELOOP: "a link is there: remove it",
     errno.ENOENT: f"the folder is gone: {AGAIN}",
     errno.EIO: f"the disk is at fault: {ELSEWHERE}",
     **dict.fromkeys((errno.ENOLCK, errno.ENOTSUP), f"this file system has no locks: {ELSEWHERE}"),
@@ -77,7 +77,7 @@ def require_file(path: Path) -> None:
             return
     if not stat.S_ISREG(mode):
         kind = next((name for of, name in KINDS if of(mode)), "device, pipe or socket")
-        raise BadInput(f"{path}: cannot be written, a {kind} stands there: choose another name, or remove it")
+        raise BadInput(f"{path}: cannot be written, a {kind} is there: choose another name, or remove it")
 
 
 @contextmanager

@@ -286,6 +286,6 @@ def test_rims_are_edges_or_holes_by_their_numbers():
     assert shell.balance.holds
     with pytest.raises(SceneError, match=r"support 1\.where: hole = 2: the sheet has 1"):
         pierced.replace(supports=({"kind": "clamped", "where": {"hole": 2}},))
-    with pytest.raises(SceneError, match="cutout 1: rim and hole are of a support's where"):
+    with pytest.raises(SceneError, match="cutout 1: rim and hole are for a support's where"):
         plain.replace(cutouts=({"shape": {"hole": 1}},))
     assert Scene.model_validate(pierced.document()) == pierced

@@ -262,7 +262,7 @@ def test_a_sheet_has_the_stiffnesses_that_it_is_given_by(thickness, own):
         (None, {"membrane": {"x": 1e4, "y": 1e4, "coupling": 2e4}}, r"material\.membrane: coupling² must be"),
         ("1 mm", {"bending": None}, "kind = 'stiffness': bending missing"),
         ("1 mm", {"bending": "3 N"}, r"material\.bending = '3 N': must be a number"),
-        ("1 mm", SOLID, "membrane, bending, area_density: is of kind"),
+        ("1 mm", SOLID, "membrane, bending, area_density: for kind"),
     ],
 )
 def test_stiffnesses_of_no_sheet_are_refused(thickness, own, said):

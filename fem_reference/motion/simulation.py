@@ -18,7 +18,7 @@ from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.sheets import SHEETS, division_of
 from fem_reference.vibration import modes
 from sheetbench.answers.history import History
-from sheetbench.choices import REFERENCE, listed
+from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.runs.record import Recipe, parted, record

@@ -81,8 +81,8 @@ def require_flat_and_dead(scene: Scene) -> None:
         if load.follows:
             key = "moment_per_length" if isinstance(load, EdgeLoad) else "kind"
             value = getattr(load, key)
-            raise BadInput(f"load {number}.{key} = {value!r}: follows the sheet; buckling is of dead loads")
+            raise BadInput(f"load {number}.{key} = {value!r}: follows the sheet; buckling needs dead loads")
     if scene.actuators:
-        raise BadInput("actuator 1: buckling is of a sheet without actuators")
+        raise BadInput("actuator 1: buckling needs a sheet without actuators")
     if bent_or_tilted(scene.supports, scene.sheet):
-        raise BadInput("support: a curved or tilted one bends the sheet; buckling is of a flat one")
+        raise BadInput("support: a curved or tilted one bends the sheet; buckling needs a flat sheet")

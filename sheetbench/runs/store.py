@@ -116,7 +116,7 @@ class FolderStore:
                 raise self._damage_error(appended, fault)
             written = np.memmap(appended, np.uint8, "r", shape=size).data if size else b""
             if zlib.crc32(written) != self._checksums[name]:
-                raise self._damage_error(appended, "is not what the run wrote: its checksum is another")
+                raise self._damage_error(appended, "was changed after the run wrote it: its checksum differs")
         self._truncate(sizes)
         return content
 
@@ -144,9 +144,8 @@ class FolderStore:
         differing = [key for key in {**stored, **requested} if stored.get(key) != requested.get(key)]
         if differing and set(differing) <= {"version", "source"}:
             raise BadInput(
-                f"{self.folder}: holds a run that another state of sheetbench's code began "
-                f"({stored.get('version')}, source {stored.get('source')}), which this one does not go on "
-                "with; choose another folder or remove this one"
+                f"{self.folder}: holds a run of other code of sheetbench ({stored.get('version')}, source "
+                f"{stored.get('source')}), which cannot be resumed; choose another folder or remove this one"
             )
         if differing:
             raise BadInput(

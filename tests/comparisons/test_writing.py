@@ -94,9 +94,9 @@ def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):
     (tmp_path / "link").symlink_to(tmp_path / "nothing")
     (tmp_path / "file").touch()
     root = "the root of the file system; name a folder in it"
-    device = "a device, pipe or socket stands there: choose another name"
+    device = "a device, pipe or socket is there: choose another name"
     for ask, place, said in (
-        (folder, tmp_path / "link", "a link to nothing stands there"),
+        (folder, tmp_path / "link", "a link to nothing is there"),
         (folder, tmp_path / "file" / "under", "Not a directory"),
         (require_file, Path(os.devnull), device),
         *((folder, place, root) for place in ("/", "//", "/usr/..")),

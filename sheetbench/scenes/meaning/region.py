@@ -122,7 +122,7 @@ def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
         for number, part in enumerate(parts, start=1):
             shape = getattr(part, "shape", None) or getattr(part, "where", None)
             if shape is not None and (shape.rim or shape.hole):
-                raise ValueError(f"{kind} {number}: rim and hole are of a support's where")
+                raise ValueError(f"{kind} {number}: rim and hole are for a support's where only")
     supports: list[AnySupport] = []
     for number, support in enumerate(scene.supports, start=1):
         shape = None if isinstance(support, Point) else place(support)

@@ -204,7 +204,7 @@ def _payload(payload: Mass, sheet: Sheet) -> str:
         return f"{1e3 * payload.mass:.3g} g at {_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
     x, y, z = (1e7 * moment for moment in payload.inertia or (0.0, 0.0, 0.0))
     turning = f", moments of inertia {x:.3g} and {y:.3g} g·cm² about x and y" if x or y else ""
-    turning += ", of that about z, the sheet's normal, nothing is taken" if z else ""
+    turning += "; the one about z, the sheet's normal, is ignored" if z else ""
     return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}{turning}"
 
 

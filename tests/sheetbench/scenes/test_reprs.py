@@ -115,7 +115,7 @@ def test_a_solution_knows_the_probes_of_its_scene():
     at_p4 = solution.displacement(np.array([SCENE.probes["P4"]]))[0]
     assert np.array_equal(solution.displacement("P4"), at_p4)
     assert np.array_equal(solution.probes["P4"], at_p4)
-    with pytest.raises(sb.BadInput, match="no probe of this name; known are P1, P2"):
+    with pytest.raises(sb.BadInput, match="no probe of this name; known: P1, P2"):
         solution.displacement("P9")
 
 

@@ -248,7 +248,7 @@ def test_a_mesh_is_as_precise_as_its_file(tmp_path):
     points = [(x / 3, y / 3, 0.0) for x in (0, 1) for y in (0, 1)]
     scene = load(beside(tmp_path, "m.obj", obj(points, [(1, 3, 4, 2)]), 1 / 3, 1 / 3))
     assert scene.region.bounds == (0.0, 0.0, 1 / 3, 1 / 3)
-    with pytest.raises(SceneError, match="mesh_scale: is of a file of mesh or outline"):
+    with pytest.raises(SceneError, match="mesh_scale: for a file of mesh or outline"):
         scene.replace(mesh_scale=0.1)
 
 

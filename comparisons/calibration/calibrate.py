@@ -76,9 +76,7 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
     """
     for name, value in (("calibration", lattice.calibration), ("grading", lattice.grading)):
         if value == AUTO and not named:
-            raise BadInput(
-                f"{name} = auto: goes by the edges and load of a SCENE; name one, or another {name}"
-            )
+            raise BadInput(f"{name} = auto: needs the edges and load of a SCENE; give one, or another {name}")
     model = resolve(scene, lattice, "springs", own=False)
     springs = model.calibrated([scene] if named else None)
     return replace(springs, remarks=(*choice_notes(model.settings), *springs.remarks))

@@ -264,7 +264,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 
         if "lumped" in named and "grid" in own.parameters:  # one option, as on the command line
             if "grid" in named:
-                raise WrongArgument(f"{name}: lumped and grid are one; give one of them")
+                raise WrongArgument(f"{name}: lumped and grid are the same option; give one of them")
             named["grid"] = named.pop("lumped")
         try:
             bound = own.bind(*values, **named)

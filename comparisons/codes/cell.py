@@ -154,7 +154,7 @@ def from_toml(path: Path) -> Cell:
         name, hinge = data.get("name", path.stem), data.get("hinge", "")
         return Cell(name, periods, nodes, triangles, hinge, springs, bricks)
     except (OSError, tomllib.TOMLDecodeError, KeyError, ValueError, TypeError, IndexError) as error:
-        raise BadInput(f"{path}: is no cell: {foreign(error)}") from None
+        raise BadInput(f"{path}: not a cell: {foreign(error)}") from None
 
 
 def _moved(place: Place, origin: Place) -> Place:

@@ -172,7 +172,7 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
     def off(moduli: Moduli) -> float:
         share = error(answer(_make_section(scene, moduli)), exact)
         if share is None:
-            raise BadInput("the probes do not move: there is no error to tell")
+            raise BadInput("the probes do not move: they have no error")
         return share
 
     return off
@@ -201,7 +201,7 @@ def _make_section(scene: Scene, moduli: Moduli) -> Section:
     material_section = section_of(scene.material, scene.sheet.thickness)
     size = (np.abs(moduli.membrane).max() * np.abs(moduli.bending).max()) ** 0.5
     if np.abs(moduli.coupling).max() > 1e-9 * size:
-        raise BadInput("the cell couples bending and stretching: no shell here has such a section")
+        raise BadInput("the cell couples bending and stretching: no shell has such a section")
     shear = STIFF * material_section.shear if moduli.shear is None else moduli.shear
     return Section(moduli.membrane, moduli.bending, shear)
 

@@ -182,8 +182,8 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
         )
     if any(len(hold.masses) > 1 for hold in lattice.holds):
         raise BadInput(
-            "--for sofa: hinged and held edges hold the mean of their layers, which has no plain "
-            "form there; clamped and curved edges only"
+            "--for sofa: hinged and held edges hold the mean of their layers, which SOFA has no "
+            "constraint for; clamped and curved edges only"
         )
     if len(lattice.pressure) or lattice.couples:
         raise BadInput("--for sofa: pressure and edge moments follow the sheet; dead loads only")

@@ -108,7 +108,7 @@ def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[d
     content |= {f"sources/{name}": text for name, text in (sources | {"buildDescription.xml": BUILD}).items()}
     built = library(sources)
     content |= {built[0]: built[1]} if built else {}
-    missing = [] if built else ["no compiler that works: sheet.fmu has its sources alone"]
+    missing = [] if built else ["no working compiler: sheet.fmu has its sources only"]
     return {"sheet.fmu": functools.partial(write_zip, content=content)}, missing
 
 

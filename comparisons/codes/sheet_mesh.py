@@ -201,13 +201,13 @@ def refusal(scene: Scene) -> str:
     places = [place(s) for s in scene.supports if not isinstance(s, Clamped | Point)]
     rectangles = all(shape.rectangle for s in scene.supports if (shape := place(s)))
     if any(places) or not rectangles:
-        return "support.where: they hold points and clamped rectangles, whose sides are lines of their meshes"
+        return "support.where: these codes hold points and clamped rectangles on lines of their meshes"
     if any(isinstance(support, Hinged) and support.twist == "held" for support in scene.supports):
-        return 'twist = "held": their hinges let the twist of the edge go'
+        return 'twist = "held": these codes have no such hinges'
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
-        return "their clamps stand upright, and supports stay where they are"
+        return "these codes have no tilted clamps and no moving supports"
     if shapes := ", ".join(word for word in scene.shaped_by.split(", ") if word not in HELD):
-        return f"{shapes}: their meshes are of whole rectangles"
+        return f"{shapes}: these codes have meshes of whole rectangles"
     if any(not isinstance(load, PointLoad | EdgeLoad) or load.follows for load in scene.loads):
         return "weight and forces at points and along edges only"
     return ""

@@ -37,7 +37,7 @@ def require_settling(models: Iterable[Resolved[Any]]) -> None:
     """Raise BadInput for a model whose statics cannot start from a given shape."""
     for name in (model.spec.model for model in models):
         if name not in (Lattice.NAME, "shell"):
-            raise BadInput(f"--settle: {name}: it is not begun near a shape; lattice and shell are")
+            raise BadInput(f"--settle: {name}: it cannot start from a given shape; lattice and shell can")
 
 
 def solved_from_motion(model: Resolved[Any], name: str) -> SolvedHere:

@@ -164,7 +164,7 @@ def identify(
     names = items(unknown) if isinstance(unknown, str) else unknown
     if field_names := [name for name in names if name.endswith(SUFFIX)]:
         if model != Lattice.NAME or len(names) > 1:
-            raise BadInput(f"unknown = '{field_names[0]}': a field alone, of the lattice")
+            raise BadInput(f"unknown = '{field_names[0]}': a field is the only unknown, and of the lattice")
         resolved = resolve(scene, lattice, own=False)
         return identify_field(resolved, measured, field_names[0].removesuffix(SUFFIX))
     unknowns = tuple(unknown_of(scene, name) for name in names)
@@ -309,7 +309,7 @@ def _snap_to_sheet(measured: Measured, scene: Scene) -> Measured:
     if isinstance(measured, Surface):
         if scene.pierced:
             raise BadInput(
-                f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a "
+                f"{measured.source}: points of the surface are fitted to a whole rectangle; for a "
                 "sheet with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
             )
         return measured

@@ -42,7 +42,7 @@ MESSAGE = 4096  # bytes of a question at most
 CONNECTIONS = 32  # open at once
 SHELL_CELLS = 24  # along the shorter side, of the picture of the shell
 KEPT = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")  # of a solution
-FAULT = "a fault of the program; the terminal that it was started from says more"
+FAULT = "a fault of the program; details are in its terminal"
 TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
 HEADERS = {  # of every answer: scripts, styles and answers of this server alone, and nobody's frame
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
@@ -63,7 +63,7 @@ class Server(ThreadingHTTPServer):
         try:
             super().__init__((LOOPBACK, port), Desk)
         except (OSError, OverflowError) as error:
-            raise BadInput(f"--port = {port}: cannot be had: {error}") from None
+            raise BadInput(f"--port = {port}: cannot be used: {error}") from None
         self.panel, self.assets, self.token = panel, _load_assets(panel), secrets.token_urlsafe(32)
         self.hosts = {f"{name}:{self.server_port}" for name in (LOOPBACK, "localhost")}
         self.address = f"http://{LOOPBACK}:{self.server_port}/{self.token}/"

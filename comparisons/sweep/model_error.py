@@ -183,8 +183,8 @@ def share_of_tolerance(tolerance: float, model_error: float | None, bar: float |
     rest = left_for_grid(tolerance, model_error) - bar_value
     if (model_error or 0.0) >= tolerance:
         return (
-            f"Of {allowed} the {reference}'s model error would take {few_percent(model_error or 0.0)}, more "
-            f"than all of it: within {allowed} of a converged {reference} only."
+            f"The {reference}'s model error, {few_percent(model_error or 0.0)}, exceeds {allowed}: the "
+            f"answer is within {allowed} of a converged {reference} only."
         )
     parts = [f"its mesh's bar {few_percent(bar_value)}"] if bar is not None else []
     if model_error:

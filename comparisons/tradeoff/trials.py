@@ -49,7 +49,7 @@ class TrialSolves:
         default all. Raises BadInput for a grid, for invalid or contradictory springs and grading, and if the
         first references need too much memory; larger models are just left out."""
         if lattice.grid is not None:
-            raise BadInput(f"grid = {counted(lattice.grid)}: is chosen here; leave it out")
+            raise BadInput(f"grid = {counted(lattice.grid)}: is chosen by the trials; leave it out")
         for name in models or ():
             require_choice("models", name, CELLS)
         self.scene, self.models, self.springs = scene, models, lattice
@@ -58,7 +58,7 @@ class TrialSolves:
         self.refused: dict[Spec, str] = {}  # with the reason
         self.meshes: list[int] = []
         self.seconds = 0.0  # of all solves
-        require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
+        require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="no coarser trial exists")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
         """Return a lattice with `cells` along the shorter side; linear: with default springs."""

@@ -71,7 +71,7 @@ def test_a_field_over_the_cells_is_smoothed_until_noise_is_left(tmp_path):
     for names, given, said in (
         ("young=field", data, "give --uncertainty"),
         ("poisson=field", deviated, "choose one of young"),
-        ("young=field,density", deviated, "a field alone"),
+        ("young=field,density", deviated, "a field is the only unknown"),
     ):
         with pytest.raises(BadInput, match=said):
             identify(SCENE, given, names, Lattice(9))

@@ -173,7 +173,7 @@ DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
     "link": (lambda path: (path.rename(path.with_name("other")), path.symlink_to("other")), CANNOT),
     "schema": (
         lambda path: (path.unlink(), changed(path, "create table runs (key text, something text)")),
-        "is of another program or version",
+        "belongs to another program or version",
     ),
     "broken row": (lambda path: changed(path, "update runs set row = ?", '{"square": '), ROW),
     "empty row": (lambda path: changed(path, "update runs set row = ?", "{}"), ROW),
@@ -205,7 +205,7 @@ def test_a_file_that_another_program_uses_is_refused(tmp_path, monkeypatch):
         pass
     other = connect(tmp_path / FILE)
     other.execute("begin exclusive")
-    refused = pytest.raises(BadInput, match=r"database is locked; .* no other program at it")
+    refused = pytest.raises(BadInput, match=r"database is locked; .* no other program's lock")
     with refused, campaign(tmp_path):
         pass
     other.close()

@@ -127,7 +127,7 @@ def test_one_rule_says_what_a_tolerance_is_held_against():
     cheapest = min(within, key=lambda row: row["solve_seconds"])
     assert cheapest["settings"] == json.loads(json.dumps(advice.choice.settings))
     (tight,) = advise("two-edges-clamped", 0.5 * advice.model.value).tables()
-    assert "more than all of it: within" in tight.text and "of a converged shell only" in tight.text
+    assert " %, exceeds " in tight.text and "of a converged shell only" in tight.text
 
 
 def test_the_trade_off_has_the_same_rule():

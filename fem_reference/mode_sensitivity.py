@@ -47,12 +47,12 @@ class FrequencyGradient(SheetGradient):
         self._mode, self._by_mass = mode, -squared * scale
 
     def __getitem__(self, name: str) -> float:
-        found: float = super().__getitem__(name)
+        derivative: float = super().__getitem__(name)
         if name.startswith("mass"):
             ends, over = self.of.ends(name)
             low, high = (self._mode @ (self.of.sheet.with_scene(end).mass @ self._mode) for end in ends)
-            found += self._by_mass * (high - low) / over
-        return found
+            derivative += self._by_mass * (high - low) / over
+        return derivative
 
 
 def _of_shape(

@@ -33,7 +33,7 @@ def cell_shares(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarr
     if shape is None and not scene.pierced:
         return np.ones(lattice.cell_areas.size)
     share = shares_of(part_of(scene, shape), *(lines.at for lines in lattice.lines))
-    return np.asarray(share.ravel()[lattice.kept])
+    return np.asarray(share.ravel()[lattice.present_cells])
 
 
 def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarray:

@@ -308,10 +308,10 @@ def both_sides(
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
     else:
-        found = parameter(scene, name)
-        value, low, high = found.value, found.low, found.high
-    own = name.partition(".")[2] if name.startswith(PATCH) else name
-    step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
+        entry = parameter(scene, name)
+        value, low, high = entry.value, entry.low, entry.high
+    key = name.partition(".")[2] if name.startswith(PATCH) else name
+    step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
     step = share * abs(value) or step
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero: differences need a scale")
@@ -319,7 +319,7 @@ def both_sides(
     for end in ends:
         if of_springs:
             springs = calibration.with_constant(name, end)
-            sides.append((build_problem(scene, springs, same=problem), springs))
+            sides.append((build_problem(scene, springs, previous=problem), springs))
         else:
             side, springs = of_changed(scene, calibration, name, end, calibrate)
             sides.append((build_problem(side, springs), springs))

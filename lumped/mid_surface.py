@@ -96,10 +96,10 @@ def _of_columns(lattice: Lattice, rows: np.ndarray, over: np.ndarray, shares: np
 
 
 def _near_rims(
-    lattice: Lattice, per_area: np.ndarray, own: np.ndarray, points: np.ndarray
+    lattice: Lattice, per_area: np.ndarray, cells: np.ndarray, points: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return lines and weights as for `_of_columns`, on a lattice with absent cells, of points in the cells
-    `own` (n, 2): the lines around them."""
+    `cells` (n, 2): the lines around them."""
     wide, around, (x, y) = np.pad(per_area, 1), _around(per_area), lattice.lines
     reach = REACH + 1
 
@@ -119,8 +119,8 @@ def _near_rims(
 
     lines = np.arange(-reach, reach + 2)
     share = np.zeros((len(points), len(lines), len(lines)))
-    for row, column in set(map(tuple, own.tolist())):
-        which = np.flatnonzero((own == (row, column)).all(axis=1))
+    for row, column in set(map(tuple, cells.tolist())):
+        which = np.flatnonzero((cells == (row, column)).all(axis=1))
         at = places(points[which], row, column)
         blend = np.stack([np.maximum(0.0, -at), 1.0 - np.abs(at), np.maximum(0.0, at)])
         weight = blend[:, None, :, 1] * blend[None, :, :, 0]
@@ -128,9 +128,9 @@ def _near_rims(
         weight /= weight.sum(axis=(0, 1))
         for j, i in np.argwhere(weight.any(axis=2)).tolist():
             rows, over, fit = nearest(row + j - 1, column + i - 1)
-            found = _terms(places(points[which], row + j - 1, column + i - 1)) @ fit
-            share[which[:, None], rows - row + reach, over - column + reach] += weight[j, i, :, None] * found
-    rows, over = (np.clip(own[:, axis, None] + lines, 0, per_area.shape[axis]) for axis in (0, 1))
+            values = _terms(places(points[which], row + j - 1, column + i - 1)) @ fit
+            share[which[:, None], rows - row + reach, over - column + reach] += weight[j, i, :, None] * values
+    rows, over = (np.clip(cells[:, axis, None] + lines, 0, per_area.shape[axis]) for axis in (0, 1))
     return rows, over, share
 
 

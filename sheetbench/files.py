@@ -52,7 +52,7 @@ def writing(path: Path) -> Iterator[None]:
 
 
 @contextmanager
-def whole(path: Path) -> Iterator[Path]:
+def replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary path with the suffix of `path`; the file there replaces `path` at the end."""
     partial = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
     with writing(path):
@@ -99,11 +99,11 @@ def only_writer(folder: Path) -> Iterator[None]:
         yield
 
 
-def _is_elsewhere(named: object, path: Path) -> bool:
+def _is_elsewhere(file: object, path: Path) -> bool:
     """Return whether an error names a file outside the folder of `path` and its parents."""
-    if not isinstance(named, str):
+    if not isinstance(file, str):
         return False
-    return Path(named).parent != path.parent and not path.is_relative_to(named)
+    return Path(file).parent != path.parent and not path.is_relative_to(file)
 
 
 def _remove_partial_files(path: Path) -> None:

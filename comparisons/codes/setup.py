@@ -217,8 +217,8 @@ def setup(
         if best and name == LAYERED:
             values = layered_springs(scene, spacing, best=True)
             cell = tetrahedral_cell(spacing, values["layers"])
-        elif best and (better := best_hinge(scene, cell, values)):
-            values["hinge"] = better
+        elif best and (hinge := best_hinge(scene, cell, values)):
+            values["hinge"] = hinge
         if at_rest:
             error_left = limit_error(scene, moduli_of(cell, {one: values[one] for one in cell.units()}))
     except NoEquilibrium as error:

@@ -162,9 +162,9 @@ def _document(limit: Limit) -> dict[str, Any]:
     finest = limit.finest
     row: dict[str, Any] = {"label": finest.label}
     if finest.status == Status.REFUSED:
-        row |= {"settings": finest.ask.spec.settings, "advice": Status.REFUSED.advice}
+        row |= {"settings": finest.request.spec.settings, "advice": Status.REFUSED.advice}
     row |= finest.document | {"status": finest.status, "message": finest.message}
-    row |= {"scene": limit.scene.name, "model": limit.name, "version": finest.ask.version}
+    row |= {"scene": limit.scene.name, "model": limit.name, "version": finest.request.version}
     row |= {"meshes": limit.meshes, "failed": limit.failures}
     if (bar := limit.uncertainty) is not None:
         row["uncertainty"] = dict(zip(limit.scene.probes, bar.bar, strict=True))

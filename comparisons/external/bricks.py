@@ -216,10 +216,10 @@ def held(scene: Scene, bricks: Bricks) -> Held:
             fixed[nodes, :2] = fixed[nodes[middle[nodes]], 2] = True
     for edge in driven.values():
         nodes = bricks.edge(edge.edge)
-        placed, height = edge.placed(bricks.positions[nodes, :2]), bricks.positions[nodes, 2:]
-        axes[nodes] = np.swapaxes(np.eye(3) + placed.turn, -1, -2)
+        motion, height = edge.displaced(bricks.positions[nodes, :2]), bricks.positions[nodes, 2:]
+        axes[nodes] = np.swapaxes(np.eye(3) + motion.turn, -1, -2)
         fixed[nodes, :2] = fixed[nodes[middle[nodes]], 2] = True
-        moved = placed.displacement + height * placed.director
+        moved = motion.displacement + height * motion.director
         value[nodes] = np.einsum("krc,kc->kr", axes[nodes], moved)
     tied = tuple(tie for (node, axis), tie in ties.items() if not fixed[node, axis])
     return Held(axes, fixed, value, tied)

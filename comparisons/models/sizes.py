@@ -52,8 +52,8 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "", 
     count = "grid" if spec.IS_LATTICE else "count"
 
     def fits(number: int) -> bool:
-        found = _estimate(spec, spec.but(**{count: number}).counts(scene))
-        return found.memory <= room
+        estimate = _estimate(spec, spec.but(**{count: number}).counts(scene))
+        return estimate.memory <= room
 
     fitting = _largest(2 if spec.IS_LATTICE else 1, fits)
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"

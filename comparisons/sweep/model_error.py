@@ -150,7 +150,7 @@ def _rise(scene: Scene, answer: Solution) -> float:
             inside = contains_xy(scene.region, *(points + 0.5 * step[:, :2]).T)
             inside &= contains_xy(scene.region, *(points + step[:, :2]).T)
         points = points[inside]
-        director = UP + (driven[support.edge].placed(points).director if support.edge in driven else 0.0)
+        director = UP + (driven[support.edge].displaced(points).director if support.edge in driven else 0.0)
         chord = answer.displacement(points + step[:, :2]) - answer.displacement(points) + step
         rises.append(float(np.abs(np.sum(chord * director, axis=1)).max(initial=0.0)))
     return max(rises) / (LEAVING * DECAY * largest) if largest > 0.0 else 0.0

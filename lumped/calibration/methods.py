@@ -83,10 +83,10 @@ def given(
         raise Impossible(f"scene '{scene.name}' has no [springs] table")
     requested = grid_of(scene.sheet, grid if grid is not None else table.grid or DEFAULT_MASSES)
     if table.grid not in (None, requested):
-        named, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
+        stored, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
         raise Impossible(
-            f"scene '{scene.name}': springs.grid = {named}: the springs are not for a grid of {other}; "
-            f"solve on {named}, or calibrate: sheetbench calibrate --grid {other} --toml"
+            f"scene '{scene.name}': springs.grid = {stored}: the springs are not for a grid of {other}; "
+            f"solve on {stored}, or calibrate: sheetbench calibrate --grid {other} --toml"
         )
     graded = table.graded(scene.sheet.lengths)
     if grading not in (None, graded):

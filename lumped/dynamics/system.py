@@ -23,7 +23,7 @@ from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping, MovingForces, add_forces
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
-from lumped.items import Placed
+from lumped.items import Deformed
 from lumped.masses import masses
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
@@ -204,7 +204,7 @@ class System:
             item.add_force((end, drive), force, since)
         return force
 
-    def ends(self, start: State, middle: float) -> tuple[Placed, Drive]:
+    def ends(self, start: State, middle: float) -> tuple[Deformed, Drive]:
         """Return displacement and commands at a step's start, and the commands at its end."""
         return (start.u, self.drive(start.time)), self.drive(2.0 * middle - start.time)
 

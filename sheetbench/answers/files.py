@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from sheetbench.errors import BadInput
-from sheetbench.files import whole
+from sheetbench.files import replacing
 
 
 def write_text(path: Path, text: str) -> None:
@@ -20,7 +20,7 @@ def write_text(path: Path, text: str) -> None:
 
     Bytes of a file's name that are not UTF-8 become \\udcXX, as in JSON.
     """
-    with whole(path) as partial:
+    with replacing(path) as partial:
         partial.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 

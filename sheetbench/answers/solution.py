@@ -312,13 +312,13 @@ class Solution(Answer):
             raise BadInput(f"gradient: {self.label} has no derivatives; choose lumped, plate or shell")
         self.require_stable()
         points = np.array([*self.points.values()]) if at is None else np.reshape(at, (-1, 2))
-        found = self.sensitivity().at_points(points, self._by_displacements(of, points))
+        derivatives = self.sensitivity().at_points(points, self._by_displacements(of, points))
         if by is not None:
-            return {name: found[name] for name in by}
+            return {name: derivatives[name] for name in by}
         every = {}
-        for name in found:
+        for name in derivatives:
             with suppress(BadInput):  # as a clamp's tilt is where another one shares its corner
-                every[name] = found[name]
+                every[name] = derivatives[name]
         return every
 
     def _by_displacements(self, of: Any, points: np.ndarray) -> np.ndarray:

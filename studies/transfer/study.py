@@ -25,7 +25,7 @@ from comparisons.models.sizes import require_room
 from comparisons.models.spec import Elements, GradingLike, Lattice, Spec, lattices
 from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
-from comparisons.sweep.solved import Ask
+from comparisons.sweep.solved import Request
 from comparisons.sweep.store import Finished, Store
 from sheetbench.answers.solution import comparable
 from sheetbench.choices import AUTO, CALIBRATIONS
@@ -240,7 +240,7 @@ class _Study:
 
     def _field(self, name: str, spec: Spec) -> np.ndarray | None:
         """Return the displacement at the points, by the table of solves."""
-        done = self._done(Ask(self.probed[name], spec, label=f"{name} {spec.label}").task)
+        done = self._done(Request(self.probed[name], spec, label=f"{name} {spec.label}").task)
         return None if done is None else np.array([*done.row["probes"].values()])
 
     def _ask(self, task: str, name: str, label: str, **arguments: Any) -> np.ndarray | None:

@@ -128,14 +128,14 @@ def answer(name: str, model: str) -> dict[str, Any]:
     return document(scene_of(name), MODELS[model](scene_of(name)))
 
 
-def document(scene: Scene, found: Solution) -> dict[str, Any]:
+def document(scene: Scene, solution: Solution) -> dict[str, Any]:
     """Return the status and cost of the solution, and the probes' displacements [m]."""
-    displacement = found.displacement(scene.probe_points()).round(DIGITS).tolist()
+    displacement = solution.displacement(scene.probe_points()).round(DIGITS).tolist()
     return {
-        "status": str(found.status),
-        "factorisations": found.iterations,
-        "load_factor": round(float(found.load_factor), 6),
-        "snaps": [round(float(snap), 4) for snap in found.snaps],
+        "status": str(solution.status),
+        "factorisations": solution.iterations,
+        "load_factor": round(float(solution.load_factor), 6),
+        "snaps": [round(float(snap), 4) for snap in solution.snaps],
         "displacement": dict(zip(scene.probes, displacement, strict=True)),
     }
 
@@ -148,10 +148,10 @@ def table() -> dict[str, Any]:
     return found
 
 
-def written(found: dict[str, Any]) -> str:
+def written(answers: dict[str, Any]) -> str:
     """Return the table as JSON, a line for every answer."""
     scenes = []
-    for name, models in found.items():
+    for name, models in answers.items():
         lines = (f" {json.dumps(model)}: {json.dumps(one)}" for model, one in models.items())
         scenes.append(f"{json.dumps(name)}: {{\n" + ",\n".join(lines) + "}")
     return "{" + ",\n".join(scenes) + "}\n"

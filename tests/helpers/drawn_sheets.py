@@ -94,7 +94,7 @@ def furnish(seed: int) -> Document:
     for patch in scene.get("patches", []) if seed % 4 < 2 else []:  # as thick all over, which the solid takes
         patch["young"] = patch.pop("thickness", 0.0) * 3e9 or patch["young"]
     lx, ly, h = (scene["sheet"][key] for key in ("length_x", "length_y", "thickness"))
-    whole = "outline" not in scene["sheet"] and "cutouts" not in scene
+    rectangle = "outline" not in scene["sheet"] and "cutouts" not in scene
 
     def anywhere() -> list[float]:
         return [pen.share(0.6, 0.9) * lx, pen.share(0.2, 0.8) * ly]
@@ -109,29 +109,30 @@ def furnish(seed: int) -> Document:
     if kind == "tension" and "patches" not in scene:
         scene["natural"] = {"pretension": [some(50.0), some(50.0)]}
     elif kind != "none":
-        own = {"strain": [some(1e-4, -5e-3) for _ in "123"], "curvature": [some(1.0, -1.0) for _ in "123"]}
-        scene["natural"] = own if kind == "both" else {kind: own[kind]} if kind in own else {}
+        natural = {"strain": [some(1e-4, -5e-3) for _ in range(3)]}
+        natural["curvature"] = [some(1.0, -1.0) for _ in range(3)]
+        scene["natural"] = natural if kind == "both" else {kind: natural[kind]} if kind in natural else {}
     if pen.either(True, False, False):
         scene["material"]["expansion"] = 2e-4
         scene["temperature"] = {"change": some(0.0, -20.0), "gradient": some(500.0, -500.0)}
     held, motion = scene["supports"], {"time": [0.0], "displacement": [[1e-4, -5e-5, 1e-4]]}
     if "edge" in held[0] and pen.either(True, False, False):
         held[0] |= pen.either({"motion": motion}, {"tilt": 0.02}) if len(held) == 1 else {}
-    elif whole and pen.either(True, False):
+    elif rectangle and pen.either(True, False):
         axes = pen.either(["x", "y", "z"], ["z"], ["x"], ["y", "z"])
         point = {"kind": "point", "at": anywhere()}
         kinds = point, point, {"kind": "held", "edge": "x1"}, {"kind": "held", "edge": "y1"}
         held.append({**pen.either(*kinds), "components": axes})
     loads = scene["loads"] = [*scene["loads"]]
-    if whole and pen.either(True, False):
+    if rectangle and pen.either(True, False):
         loads.append({"kind": "point", "at": anywhere(), "force": [1e-3, -2e-3, some(2e-3, -2e-3)]})
     if pen.either(True, False):
         part = {
             "where": pen.shape(lx, ly)
-            if whole
+            if rectangle
             else {"rectangle": {"x": [0.0, 0.5 * lx], "y": [0.0, 0.3 * ly]}}
         }
-        scene["masses"] = [{"mass": 1e-3, **(pen.either({"at": anywhere()}, part) if whole else part)}]
+        scene["masses"] = [{"mass": 1e-3, **(pen.either({"at": anywhere()}, part) if rectangle else part)}]
     if pen.either(True, False, False, False):
         below = {"position": [0.6 * lx, 0.5 * ly, -0.03 - 0.5 * h - 1e-3], "radius": 0.03}
         plane = {"position": [0.0, 0.0, -0.5 * h - 2e-4], "normal": [0.0, 0.0, 1.0]}

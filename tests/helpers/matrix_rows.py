@@ -65,16 +65,16 @@ def check(
 
     monkeypatch.setattr(Output, "show", shown)
     status = run(*arguments)
-    said = capsys.readouterr()
-    assert "Traceback" not in said.err, said.err[-3000:]
-    assert status in (0, 2, 3), said.err
+    output = capsys.readouterr()
+    assert "Traceback" not in output.err, output.err[-3000:]
+    assert status in (0, 2, 3), output.err
     if status == 2:
-        assert said.err.strip() and not answers and not said.out
-        assert len(said.err.splitlines()[-1]) <= LONGEST, said.err
-        for what in ("option", "command"):  # the row means something
-            assert f"No such {what}" not in said.err, said.err
+        assert output.err.strip() and not answers and not output.out
+        assert len(output.err.splitlines()[-1]) <= LONGEST, output.err
+        for kind in ("option", "command"):  # the row means something
+            assert f"No such {kind}" not in output.err, output.err
     elif "--json" in arguments:
-        json.loads(said.out)
+        json.loads(output.out)
     for answer in answers:
         for solution in answer.document().get("solutions", ()):
             require_balanced(solution)

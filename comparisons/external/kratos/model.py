@@ -124,9 +124,9 @@ def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.n
         nodes = mesh.edge(edge.edge)
         held[nodes] = True
         for step, load_factor in enumerate(load_factors.tolist()):
-            placed = edge.placed(mesh.positions[nodes, :2], load_factor)
-            value[step, nodes, :3] = placed.displacement
-            value[step, nodes, 3:] = Rotation.from_matrix(np.eye(3) + placed.turn).as_rotvec()
+            displaced = edge.displaced(mesh.positions[nodes, :2], load_factor)
+            value[step, nodes, :3] = displaced.displacement
+            value[step, nodes, 3:] = Rotation.from_matrix(np.eye(3) + displaced.turn).as_rotvec()
     return held, value
 
 

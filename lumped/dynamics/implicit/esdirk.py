@@ -97,10 +97,10 @@ class Esdirk(Integrator):
             error = max(error, self._largest * step.error_of_branches())
             reached = max(self._largest, largest(END, step.stages.u))
             if self.system.items:  # which are touched within steps
-                found = self._advance(state, step)
-                now = self._energies(found.state)
+                advance = self._advance(state, step)
+                now = self._energies(advance.state)
                 self._energy = max(self._energy, *map(abs, now))
-                gained = abs(sum(now) - sum(began) + found.dissipated - found.work)
+                gained = abs(sum(now) - sum(began) + advance.dissipated - advance.work)
                 error = max(error, reached * ENERGY * gained / (self._energy or 1.0))
             return step, error, self._error * reached
 

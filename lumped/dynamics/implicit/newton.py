@@ -135,13 +135,13 @@ class Newton:
         factor = self._factor if self._key == by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
 
-    def correction(self, left: np.ndarray) -> np.ndarray | None:
+    def correction(self, residual: np.ndarray) -> np.ndarray | None:
         """Return the change (n, 3) [m] with which the factors kept take a residual (m,) off, None without."""
         problem, band = self._system.problem, self._system.problem.system.band
         if self._factored is not None and band is not None:
-            found = banded.solve_unrefined(self._factors, band.width, band.order, left)
+            found = banded.solve_unrefined(self._factors, band.width, band.order, residual)
         elif self._factor is not None:
-            found = self._factor.solve(left, SOLVED)
+            found = self._factor.solve(residual, SOLVED)
         else:
             return None
         return problem.expand(found)
@@ -202,19 +202,19 @@ class Newton:
         Raises StepFailed."""
         if (compiled := self._compiled) is None:
             return None
-        u, left, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
+        u, remaining, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
         given = equation.by, self._system.loads([equation.time])[0], limits, compiled.arrays
         while self.near(equation.by[0]) or self._factorise(equation, u):
-            solved, left = iterate(left, u, *base, *given, self._factors)
-            if self._solved(solved, left):
+            solved, remaining = iterate(remaining, u, *base, *given, self._factors)
+            if self._solved(solved, remaining):
                 return u
         return None
 
-    def _solved(self, solved: bool, left: int) -> bool:
+    def _solved(self, solved: bool, remaining: int) -> bool:
         """Return whether the compiled iteration has converged, and drop its factors otherwise. Raises
         StepFailed if no corrections are left."""
         if not solved:
             self._factored = None
-            if left == 0:
+            if remaining == 0:
                 raise StepFailed(UNSOLVED)
         return solved

@@ -148,8 +148,8 @@ class SensitiveEsdirk(Esdirk):
         for _ in range(CORRECTIONS):
             moved = change - base[0]
             whole = np.array([change, base[1] + c1 * moved, c1**2 * moved])
-            left = self.system.problem.reduce(one.residual(inside, at, whole, time))
-            if (correction := self._newton.correction(left)) is None:
+            residual = self.system.problem.reduce(one.residual(inside, at, whole, time))
+            if (correction := self._newton.correction(residual)) is None:
                 equation = StepEquation(step.in_stage(i), time, at[0], at[1], (c1**2, c1))
                 self._newton.renew(equation, at[0])
                 continue

@@ -176,9 +176,9 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
         touches = f"{where}: the sheet touches that edge at points at most; say where by a shape"
         yield edge and edge_length(scene, edge) <= least and touches
     for number, actuator in enumerate(scene.actuators, start=1):
-        whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
+        length = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
         short = f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
-        yield edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole and short
+        yield edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * length and short
     yield _motion_conflict(scene)
 
 

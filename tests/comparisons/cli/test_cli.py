@@ -14,7 +14,7 @@ from commands import one_line, run
 from terminals import Terminal
 
 from comparisons.cli import interruption, startup, study
-from comparisons.sweep import here as table
+from comparisons.sweep import in_process as table
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.choices import VERBS

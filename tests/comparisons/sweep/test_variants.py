@@ -109,7 +109,9 @@ def test_the_function_takes_a_mapping_of_values():
     given = {"sheet.thickness": thickness, "support.1.kind": "clamped"}
     found = sb.sweep(SEED, given, grid=3, reference="", workers=1)
     assert [row.varied["sheet.thickness"] for row in found.rows] == thickness.tolist()
-    assert [row.ask.scene for row in found.rows] == [SEED.replace(thickness=h) for h in thickness.tolist()]
+    assert [row.request.scene for row in found.rows] == [
+        SEED.replace(thickness=h) for h in thickness.tolist()
+    ]
 
 
 @pytest.mark.nightly

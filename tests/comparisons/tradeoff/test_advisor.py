@@ -14,7 +14,7 @@ from comparisons.models import solve as solvers
 from comparisons.models.resolve import resolve
 from comparisons.models.scales import scales
 from comparisons.models.spec import Elements
-from comparisons.sweep import here as table
+from comparisons.sweep import in_process as table
 from comparisons.sweep.differences import error
 from comparisons.sweep.front import cheapest
 from comparisons.tradeoff.advisor import advise

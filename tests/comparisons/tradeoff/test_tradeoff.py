@@ -63,8 +63,8 @@ def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(monkeypatch, 
         known = {"probes": {"P": u}, "columns": {"field": [u]}, "load_factor": 1.0}
         return Solved(ask, status, row=known | {"settings": ask.spec.settings})
 
-    def solved(asks, *_, **__):
-        return [row(ask, "converged" if n else finest) for n, ask in enumerate(asks)]
+    def solved(requests, *_, **__):
+        return [row(ask, "converged" if n else finest) for n, ask in enumerate(requests)]
 
     monkeypatch.setattr(statics, "sweep", solved)
     found = statics.tradeoff(

@@ -26,7 +26,7 @@ from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Chain, Curved, Hinged
-from sheetbench.scenes.meaning.kinematics import Placed
+from sheetbench.scenes.meaning.kinematics import Displaced
 from studies.stability import scenes as stability_scenes
 
 SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7
@@ -70,10 +70,10 @@ class Shortening:
 
     shorter: float
 
-    def placed(self, points, load_factor, time=None):
+    def displaced(self, points, load_factor, time=None):
         out = np.zeros((len(points), 3))
         out[:, 0] = -0.5 * self.shorter * np.sign(points[:, 0] - SIDE / 2)
-        return Placed(out, np.zeros((3, 3)))
+        return Displaced(out, np.zeros((3, 3)))
 
 
 class Strip(Static):

@@ -16,7 +16,7 @@ import sheetbench as sb
 from comparisons.comparison.answer import Comparison
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
-from comparisons.sweep.solved import Ask
+from comparisons.sweep.solved import Request
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
@@ -38,7 +38,7 @@ SPECTRA = Spectra(
     (Spectrum("lumped", "lumped 5×5×2", {}, 0.1, Still(FREQUENCIES, np.zeros(0), 0, 96)),),
 )
 ROWS = [
-    TradeoffRow(Ask(SCENE, spec), "converged", error=error, row={"cost": {"samples": [seconds]}})
+    TradeoffRow(Request(SCENE, spec), "converged", error=error, row={"cost": {"samples": [seconds]}})
     for spec, seconds, error in ((Lattice(3), 2e-3, 4e-3), (Elements("shell", 4), 0.1, 1e-3))
 ]
 TRADEOFF = Tradeoff(SCENE, tuple(ROWS), ROWS[1], 1e-4)

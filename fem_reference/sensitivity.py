@@ -73,11 +73,9 @@ class SheetSensitivity:
         try:
             found = self.sheet.solver().factor(matrix)
         except SingularMatrixError as error:
-            raise NoEquilibrium(
-                f"{self.sheet.model}: no derivatives, the tangent is singular: {error}"
-            ) from None
+            raise NoEquilibrium(f"{self.sheet.model}: no derivatives, a singular tangent: {error}") from None
         if found.negative > 0 or found.zero > 0:
-            raise NoEquilibrium(f"{self.sheet.model}: no derivatives, the equilibrium is unstable")
+            raise NoEquilibrium(f"{self.sheet.model}: no derivatives, an unstable equilibrium")
         return found
 
     @cached_property

@@ -156,9 +156,9 @@ class Equilibrium:
             with one_blas_thread():  # that of the path's end may be older
                 found = self.problem.system.factor(self.problem.tangent(self.u, 1.0))
         except SingularMatrixError as error:
-            raise NoEquilibrium(f"lumped: no derivatives, the tangent is singular: {error}") from None
+            raise NoEquilibrium(f"lumped: no derivatives, a singular tangent: {error}") from None
         if self.problem.descends and found.negative > 0:
-            raise NoEquilibrium("lumped: no derivatives, the equilibrium is unstable")
+            raise NoEquilibrium("lumped: no derivatives, an unstable equilibrium")
         return found
 
     @cached_property

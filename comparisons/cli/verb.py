@@ -252,7 +252,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 
     metavars = {name: words.metavar for name, words in declared.words.items()}
     accepted = (in_python(p, metavars.get(p.name)) for p in parameters if p.name not in TERMINAL)
-    interface = Signature(sorted(accepted, key=order), return_annotation=declared.signature.return_annotation)
+    api = Signature(sorted(accepted, key=order), return_annotation=declared.signature.return_annotation)
     converters = {p.name: conversion(p, declared.separators.get(p.name)) for p in declared.parameters()}
 
     @wraps(command)
@@ -262,18 +262,16 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         from sheetbench.scenes import Scene
         from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
-        if "lumped" in named and "grid" in interface.parameters:  # one option, as on the command line
+        if "lumped" in named and "grid" in api.parameters:  # one option, as on the command line
             if "grid" in named:
                 raise WrongArgument(f"{name}: lumped and grid are the same option; give one of them")
             named["grid"] = named.pop("lumped")
         try:
-            bound = interface.bind(*values, **named)
+            bound = api.bind(*values, **named)
         except TypeError as error:
-            wrong = next((key for key in named if key not in interface.parameters), "")
-            hint = "".join(
-                f"; did you mean {key}?" for key in get_close_matches(wrong, interface.parameters, 1)
-            )
-            raise WrongArgument(f"{name}: {error}; it has {', '.join(interface.parameters)}{hint}") from None
+            wrong = next((key for key in named if key not in api.parameters), "")
+            hint = "".join(f"; did you mean {key}?" for key in get_close_matches(wrong, api.parameters, 1))
+            raise WrongArgument(f"{name}: {error}; it has {', '.join(api.parameters)}{hint}") from None
         bound.apply_defaults()
         arguments = dict(bound.arguments)
         scenes = [value for value in arguments.values() if isinstance(value, Scene)]
@@ -300,9 +298,9 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
             error.args = (OPTIONS.sub(_in_python, str(error)),)
             raise
 
-    run.__signature__ = interface  # type: ignore[attr-defined]
-    run.__doc__ = "\n".join([declared.prose, "", *_sections(interface, declared.words), ""])
-    run.__annotations__ = {one.name: one.annotation for one in interface.parameters.values()}
+    run.__signature__ = api  # type: ignore[attr-defined]
+    run.__doc__ = "\n".join([declared.prose, "", *_sections(api, declared.words), ""])
+    run.__annotations__ = {one.name: one.annotation for one in api.parameters.values()}
     return run
 
 
@@ -311,18 +309,16 @@ def _in_python(option: re.Match[str]) -> str:
     return f"{name}_" if name in ("for", "open") else name
 
 
-def _sections(interface: Signature, words: Mapping[str, Words]) -> Iterable[str]:
+def _sections(api: Signature, words: Mapping[str, Words]) -> Iterable[str]:
     """Yield the lines of numpydoc's sections of a verb as a function."""
     yield from ("Parameters", "----------")
-    for name, parameter in interface.parameters.items():
+    for name, parameter in api.parameters.items():
         text = re.sub(
             r"--([a-z][a-z-]*)", _in_python, words.get(name, Words(WITHOUT_WORDS.get(name, ""))).text
         )
         yield f"{name} : {parameter.annotation}"
         yield f"    {text[:1].upper()}{text[1:].rstrip('.')}."
-    kinds = dict.fromkeys(
-        re.findall(r"\b[A-Z]\w+", str(interface.return_annotation).replace("Annotated", ""))
-    )
+    kinds = dict.fromkeys(re.findall(r"\b[A-Z]\w+", str(api.return_annotation).replace("Annotated", "")))
     file = "The file that was written." if "Path" in kinds else "The answer, with its tables and pictures."
     yield from ("", "Returns", "-------", " or ".join(kinds), f"    {file}")
     yield from ("", "Raises", "------", "BadInput", "    An argument that cannot be used as given.")

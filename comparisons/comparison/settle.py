@@ -21,7 +21,7 @@ from comparisons.comparison.branches import Field, shape
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Lattice
-from comparisons.sweep.in_process import SolvedInProcess, solve_in_process
+from comparisons.sweep.in_process import LocalSolve, solve_in_process
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import mass_of
@@ -40,7 +40,7 @@ def require_settling(models: Iterable[Resolved[Any]]) -> None:
             raise BadInput(f"--settle: {name}: it cannot start from a given shape; lattice and shell can")
 
 
-def solved_from_motion(model: Resolved[Any], name: str) -> SolvedInProcess:
+def solved_from_motion(model: Resolved[Any], name: str) -> LocalSolve:
     """Return the row of a model whose statics start from the end of its damped motion."""
     near, at_rest, fault = settled(model)
     row = solve_in_process(model, name, near=near)

@@ -41,9 +41,8 @@ from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.orthotropy import MODULI
 from sheetbench.scenes.objects.patches import Patch
 
-Cell = tuple[
-    Request, Request | str | None
-]  # a run, and the run its error refers to, or the reason of a refusal
+# a run, and the run its error refers to, or the reason of a refusal
+Cell = tuple[Request, Request | str | None]
 FACTORS = {
     "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),
     "slenderness": (0.03, 0.1, 0.3, 1.0, 3.0, 10.0),
@@ -90,13 +89,8 @@ def stability(
         "time-step": partial(_stepped, scene, lattice, period),
     }
     cells = [cell for name in VARIED if name in varied for cell in makers[name]()]
-    requests = [
-        request
-        for cell in cells
-        if not isinstance(cell[1], str)
-        for request in cell
-        if isinstance(request, Request)
-    ]
+    solvable = (cell for cell in cells if not isinstance(cell[1], str))
+    requests = [one for cell in solvable for one in cell if isinstance(one, Request)]
     solved = {id(row.request): row for row in sweep(requests, store, **campaign)}
     refused = str(Status.REFUSED)
     rows = tuple(
@@ -155,10 +149,8 @@ def _damped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
                 duration = min(duration, RUN_STEPS * limit.advised)
             label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
             times: Any = {"duration": duration, "every": duration / SAMPLES}
-            yield (
-                Request(variant, lattice, run={"integrator": name}, tags=tags, label=label, **times),
-                None,
-            )
+            run = {"integrator": name}
+            yield Request(variant, lattice, run=run, tags=tags, label=label, **times), None
 
 
 def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:

@@ -26,7 +26,7 @@ QUICK = 0.2  # s: longer solves are not repeated
 
 
 @dataclass(frozen=True, kw_only=True)
-class SolvedInProcess(Solved):
+class LocalSolve(Solved):
     """A row with its answer."""
 
     answer: Solution
@@ -44,9 +44,7 @@ class SolvedInProcess(Solved):
         return median(self.samples)
 
 
-def solve_in_process(
-    model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = None
-) -> SolvedInProcess:
+def solve_in_process(model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = None) -> LocalSolve:
     """Solve a model and return its row; name: in place of its own; repeats: of a quick solve; near: a shape
     to start from."""
     answer = solve(model, name, near)
@@ -57,9 +55,7 @@ def solve_in_process(
     row = {"settings": answer.settings, "load_factor": answer.load_factor, "probes": model.scene.probes}
     row["cost"] = {"samples": samples, "load_average": load.average()}
     status = str(answer.status)
-    return SolvedInProcess(
-        Request(model.scene, model.spec, repeats), status, answer.message, row, answer=answer
-    )
+    return LocalSolve(Request(model.scene, model.spec, repeats), status, answer.message, row, answer=answer)
 
 
 def motion_row(scene: Scene, spec: Spec, history: History) -> Solved:

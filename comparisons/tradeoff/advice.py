@@ -12,7 +12,7 @@ from comparisons.models.grading import parse_grading
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.sweep import load
 from comparisons.sweep.differences import unseen
-from comparisons.sweep.in_process import SolvedInProcess
+from comparisons.sweep.in_process import LocalSolve
 from comparisons.sweep.model_error import ModelError, share_of_tolerance
 from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.answers.answer import Answer
@@ -46,7 +46,7 @@ class Advice(Answer):
     trials: TrialSolves
     tolerance: float | None
     budget: float | None
-    chosen: SolvedInProcess | None
+    chosen: LocalSolve | None
     message: str
     needs: tuple[str, ...]
     left_out: tuple[str, ...]
@@ -85,7 +85,7 @@ class Advice(Answer):
         unreliable = load.warnings([row.conditions for row in rows], [row.samples for row in rows])
         return [*unreliable, *(f"{spec.model} {spec.size} left out: {reason}" for spec, reason in refused)]
 
-    def errors(self, row: SolvedInProcess) -> tuple[float | None, float | None, float | None]:
+    def errors(self, row: LocalSolve) -> tuple[float | None, float | None, float | None]:
         """Return a row's error at the probes, its error over the sheet, and its total error, unknown as None.
         The total, for comparison with a tolerance, is the error at the probes plus the reference's error bar
         and model error."""
@@ -176,7 +176,7 @@ class Advice(Answer):
             f"membrane strain q a/(E h) = {number(scales.strain, '.2g')}; a: shorter side",
         ]
 
-    def _unseen(self, chosen: SolvedInProcess) -> list[str]:
+    def _unseen(self, chosen: LocalSolve) -> list[str]:
         return unseen([(chosen.request.spec.label, *self.errors(chosen)[:2])], self.bar)
 
     def result(self) -> str:

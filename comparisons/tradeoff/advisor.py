@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 from comparisons.comparison.comparison import load_static
 from comparisons.models.spec import Lattice, Spec
-from comparisons.sweep.in_process import SolvedInProcess
+from comparisons.sweep.in_process import LocalSolve
 from comparisons.sweep.model_error import left_for_grid
 from comparisons.tradeoff.advice import Advice
 from comparisons.tradeoff.trials import TrialSolves
@@ -95,9 +95,9 @@ def advise(
     return _advice(trials, tolerance, budget, chosen, message)
 
 
-def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> SolvedInProcess | None:
+def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> LocalSolve | None:
     """Return the quickest candidate that is certainly within the tolerance."""
-    best: SolvedInProcess | None = None
+    best: LocalSolve | None = None
     remaining = list(candidates)
     while remaining:
         remaining.sort(key=trials.predicted_seconds)
@@ -112,7 +112,7 @@ def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> 
     return best
 
 
-def _adequate(trials: TrialSolves, trial: SolvedInProcess, tolerance: float) -> bool:
+def _adequate(trials: TrialSolves, trial: LocalSolve, tolerance: float) -> bool:
     """Return whether a trial is within the tolerance; refine the reference until this is certain."""
     while True:
         error, bar = trials.error(trial), trials.uncertainty
@@ -124,9 +124,9 @@ def _adequate(trials: TrialSolves, trial: SolvedInProcess, tolerance: float) -> 
             return False
 
 
-def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -> SolvedInProcess | None:
+def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -> LocalSolve | None:
     """Return the candidate of least error within the budget [s], None if all take longer."""
-    best: SolvedInProcess | None = None
+    best: LocalSolve | None = None
     for candidate in candidates:
         if trials.predicted_seconds(candidate) > 1.5 * budget:
             continue
@@ -138,7 +138,7 @@ def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -
     return best
 
 
-def _nearest(trials: TrialSolves, candidates: list[Spec]) -> SolvedInProcess | None:
+def _nearest(trials: TrialSolves, candidates: list[Spec]) -> LocalSolve | None:
     """Return the trial of least error, the reference itself if it may be chosen."""
     if trials.models is None or REFERENCE in trials.models:
         return trials.reference
@@ -150,7 +150,7 @@ def _advice(
     trials: TrialSolves,
     tolerance: float | None,
     budget: float | None,
-    chosen: SolvedInProcess | None,
+    chosen: LocalSolve | None,
     message: str,
 ) -> Advice:
     needs, left_out = _effects(trials, chosen, tolerance or 0.01)
@@ -162,7 +162,7 @@ def _advice(
 
 
 def _effects(
-    trials: TrialSolves, chosen: SolvedInProcess | None, tolerance: float
+    trials: TrialSolves, chosen: LocalSolve | None, tolerance: float
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the effects that the scene needs, and the effects left out of the chosen model."""
     needs, left_out = ["bending"], ["dynamics: the question is static"]

@@ -151,10 +151,8 @@ class MotionRow(TradeoffRow):
     @property
     def step(self) -> float | None:
         """The step [s]: fixed, or the mean step of an error control."""
-        mean = (
-            (self.request.duration or 0.0) / self.row["steps"] if self.usable and self.row["steps"] else None
-        )
-        return self.request.run.get("step") or mean
+        steps = self.row["steps"] if self.usable else 0
+        return self.request.run.get("step") or ((self.request.duration or 0.0) / steps if steps else None)
 
     @property
     def cost(self) -> float | None:
@@ -187,11 +185,8 @@ class MotionRow(TradeoffRow):
 
     def as_dict(self) -> dict[str, Any]:
         """Return the row as JSON data."""
-        out: dict[str, Any] = {
-            "model": self.model,
-            "size": self.request.spec.size,
-            "integrator": self.integrator,
-        }
+        size, integrator = self.request.spec.size, self.integrator
+        out: dict[str, Any] = {"model": self.model, "size": size, "integrator": integrator}
         out |= {"step": self.step, "status": self.status, "message": self.message}
         out |= {name: self.known.get(name) for name in OF_A_RUN} | {"seconds_per_second": self.cost}
         return out | {"error": self.error, **{name: getattr(self, name) for name in OF_A_MOTION}}

@@ -20,7 +20,7 @@ from comparisons.models.scales import scales
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.sweep.differences import error
-from comparisons.sweep.in_process import SolvedInProcess, solve_in_process
+from comparisons.sweep.in_process import LocalSolve, solve_in_process
 from comparisons.sweep.limits import limit
 from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION
@@ -54,7 +54,7 @@ class TrialSolves:
             require_choice("models", name, CELLS)
         self.scene, self.models, self.springs = scene, models, lattice
         self.scales = scales(scene)
-        self.rows: dict[Spec, SolvedInProcess] = {}
+        self.rows: dict[Spec, LocalSolve] = {}
         self.refused: dict[Spec, str] = {}  # with the reason
         self.meshes: list[int] = []
         self.seconds = 0.0  # of all solves
@@ -87,7 +87,7 @@ class TrialSolves:
         named = [spec for spec in specs if self.models is None or spec.model in self.models]
         return [spec for spec in named if has_room(self.scene, spec)]
 
-    def row(self, candidate: Spec, repeats: int = REPEATS) -> SolvedInProcess:
+    def row(self, candidate: Spec, repeats: int = REPEATS) -> LocalSolve:
         """Return the candidate's row, solved on the first request."""
         if candidate not in self.rows:
             start = perf_counter()
@@ -96,7 +96,7 @@ class TrialSolves:
             self.seconds += perf_counter() - start
         return self.rows[candidate]
 
-    def try_row(self, candidate: Spec) -> SolvedInProcess | None:
+    def try_row(self, candidate: Spec) -> LocalSolve | None:
         """Return the candidate's row, None if refused, as for a grid without a mass at a point."""
         try:
             return self.row(candidate)
@@ -115,7 +115,7 @@ class TrialSolves:
         return self.row(self.elements("shell", cells), repeats=1).stable
 
     @property
-    def reference(self) -> SolvedInProcess:
+    def reference(self) -> LocalSolve:
         """The reference on its finest mesh so far."""
         return self.row(self.elements("shell", self.meshes[-1]))
 
@@ -131,11 +131,11 @@ class TrialSolves:
         """Model error of the reference, independent of its mesh, from its present answer."""
         return model_error(self.scene, self.reference.answer)
 
-    def error(self, row: SolvedInProcess) -> float:
+    def error(self, row: LocalSolve) -> float:
         """Return the error of a row at the probes, infinite without a stable answer."""
         return (error(row.u, self.reference.u) or 0.0) if row.stable else float("inf")
 
-    def field_error(self, row: SolvedInProcess) -> float | None:
+    def field_error(self, row: LocalSolve) -> float | None:
         """Return the error of a row over the sheet, None without a stable answer."""
         return error(row.field, self.reference.field) if row.stable else None
 

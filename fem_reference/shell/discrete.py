@@ -92,12 +92,8 @@ class DiscreteShell(DiscreteElements):
         vectors = [(plan.elements, plan.elements), (sides, directors - n)]
         unknowns = (np.hstack([_flat(self.moves[at]), _flat(self.turns[on])]) for at, on in vectors)
         self.pattern = pattern_of(self.places(bound), *unknowns, size=len(self._free))
-        self.unknowns, self.size, self.first_director = (
-            self.pattern.size,
-            6 * n + bound.rod_vectors.size,
-            3 * n,
-        )
-        self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.rod_vectors])
+        self.unknowns, self.size, self.first_director = self.pattern.size, 6 * n + bound.vectors.size, 3 * n
+        self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.vectors])
         self._held = np.concatenate([supports.position, np.tile(held, (3, 1)).T])
         self.bind(bound)
 

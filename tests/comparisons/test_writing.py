@@ -128,7 +128,7 @@ def test_a_file_that_no_run_wrote_is_replaced_only_on_request(tmp_path):
 
     mine = tmp_path / "check.md"
     mine.write_text("mine")
-    with pytest.raises(BadInput, match="not written by a run; move it, or --overwrite"):
+    with pytest.raises(BadInput, match="no run wrote it; move it, or --overwrite"):
         write("ours")
     assert mine.read_text() == "mine"
     write("ours", overwrite=True)

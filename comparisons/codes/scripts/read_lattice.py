@@ -26,8 +26,7 @@ def dot(a, b):
 
 
 def gradient(lattice, along, u):
-    """Return the energy [J] of springs and contact and its gradient (n, 3) [N] at displacements u (n, 3)
-    [m]."""
+    """Return the energy [J] of springs and contact, and its gradient (n, 3) [N], at u (n, 3) [m]."""
     x = lattice["positions"] + u
     k, r = lattice["link_stiffness"][:, None], along["link"] @ x
     stretch = np.sqrt(dot(r, r)) - lattice["link_rest_length"][:, None]
@@ -104,8 +103,7 @@ def faces(lattice, along, x, g):
 
 
 def neighbours(along):
-    """Return a mask of masses (n, n) with a common spring, and groups of masses of which no two share a
-    neighbour."""
+    """Return a mask of masses (n, n) with a common spring, and groups of masses without common neighbours."""
     pairs = [
         abs(each) if kind in ("link", "contact") else sum(map(abs, each))
         for kind, each in along.items()
@@ -151,8 +149,7 @@ def part_of(lattice, along, part, share):
 
 
 def equilibrium(lattice, along, steps=1):
-    """Return displacements (n, 3) at rest by Newton's method, the tangent by differences, supports by
-    multipliers.
+    """Return displacements (n, 3) at rest by Newton's method with differences and multipliers of supports.
 
     The load comes in `steps`, in twice as many where Newton does not converge; then contact stiffens.
     """

@@ -5,7 +5,7 @@ acts in full from t = 0 on. Statics take the last factor.
 """
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -16,6 +16,7 @@ from sheetbench.scenes.objects.tables import Loading
 
 
 class _Load(Loading):
+    follows: ClassVar = False  # the sheet: a dead load keeps its direction
     hold: bool = Field(default=False, kw_only=True)
     """Whether the load acts only until a motion starts and is let go at t = 0: with [initial]
     shape = "static". For statics it is a load like others."""
@@ -23,11 +24,6 @@ class _Load(Loading):
     def _faults(self) -> Iterator[object]:
         alone = "hold = true: it acts in full until t = 0 and no longer; leave hold or history out"
         yield self.hold and self.history and alone
-
-    @property
-    def follows(self) -> bool:
-        """Whether the load follows the sheet as it moves; a dead load keeps its direction."""
-        return False
 
 
 class Initial(Frozen):
@@ -68,7 +64,7 @@ class EdgeLoad(_Load):
         yield not given and "needs force_per_length [N/m] or moment_per_length [N·m/m]"
 
     @property
-    def follows(self) -> bool:
+    def follows(self) -> bool:  # type: ignore[override]
         """Whether there is a moment, which turns with the edge."""
         return self.moment_per_length != 0.0
 
@@ -91,11 +87,7 @@ class Pressure(_Load):
     """> 0 pushes along the sheet's current normal, at first +z; per current area."""
     where: Shape | None = None
     """The part that is loaded; the whole sheet unless given."""
-
-    @property
-    def follows(self) -> bool:
-        """Whether the load follows the sheet: always."""
-        return True
+    follows: ClassVar = True
 
 
 AnyLoad = PointLoad | EdgeLoad | AreaLoad | Pressure

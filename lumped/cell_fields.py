@@ -139,7 +139,7 @@ class CellFields:
             e = fields.get("young", self.base["young"]) / np.where(there, self.base["young"], 1.0)
             inside = constants.scaled(e)
         else:
-            inside = replace(self._own, of=self._closed(cells).of)
+            inside = replace(self._closed_form, of=self._closed(cells).of)
         of = dict(inside.of)
         for name in RIMS_OWN:
             if name in constants.of:
@@ -165,7 +165,7 @@ class CellFields:
         return springs_of_cells(each, self.calibration.layer_distance, anyhow=True, **CLOSED[method])
 
     @cached_property
-    def _own(self) -> Springs:
+    def _closed_form(self) -> Springs:
         """The closed form's springs of the sections as they are. Raises BadInput where the lattice has
         others."""
         own, constants = self._closed(self.section), self.calibration.constants

@@ -329,7 +329,7 @@ def both_sides(
 def of_changed(
     scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
 ) -> tuple[Scene, Calibration]:
-    """Return the scene with another value, and its springs, found anew where their sources have changed."""
+    """Return the scene with another value, and its springs, calibrated again if they depend on it."""
     if name.startswith(OBSTACLE):  # unchecked: a sheet that begins on one is within it by so little
         fields = SceneFields.model_construct(**dict(scene))
         changed = scene.model_copy(update=dict(put(fields, name, value)))

@@ -136,7 +136,7 @@ def _solve(
     out: np.ndarray,
     done: np.ndarray,
 ) -> None:
-    """Set the displacements of a part of designs, and which are found."""
+    """Set the displacements of a part of designs, and whether each has converged."""
     problem, lattice = sheet.problem, sheet.problem.assembly.lattice
     links, layers, middle, _ = problem.assembly.springs
     base = sheet.base[YOUNG].ravel()
@@ -179,9 +179,9 @@ def correct(
     done: np.ndarray,
 ) -> None:
     """Set displacements (designs, n, 3) [m] in equilibrium under loads (designs, n, 3) [N] with links of
-    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), sought from
-    `start` with its factors, then with their own, and which are found; rounding [N/m]: of forces, over the
-    displacement."""
+    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), by
+    the factors of `start`, then by their own, and `done` where converged; rounding [N/m]: of forces, over
+    the displacement."""
     n = len(band.order)
     a, b, c = springs.links, springs.layers, springs.middle
     for d in range(len(k)):

@@ -1,4 +1,4 @@
-"""Which sheet another code's numbers are: the table of coefficients read the other way.
+"""The sheet of another code's parameters: the inverse of the table of coefficients.
 
 Coefficients C, thickness and density follow from the code's parameters, which are functions of them
 (`comparisons.codes.table`). The cell of the code's mesh then has a membrane A with ν = A12/A11 and

@@ -1,4 +1,4 @@
-"""What of a scene can be changed on the page, within which bounds, and how a question is read.
+"""The page's sliders with their bounds, and the reading of its questions.
 
 A question has the values of the page's sliders, JSON from outside: names, types and bounds are checked, which
 are also what keeps a solve small.
@@ -61,7 +61,7 @@ class Message(BaseModel):
 
 
 class Question(NamedTuple):
-    """What is solved; elements: of the shell, along the shorter side."""
+    """A scene and models to solve; elements: of the shell, along the shorter side."""
 
     number: int
     scene: Scene

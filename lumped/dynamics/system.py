@@ -245,7 +245,7 @@ class System:
             item.add_resistance_tangent((u, self.drive(time)), v, damping, blocks)
         return blocks
 
-    def within(self, state: State, ahead: float = 0.0) -> System:
+    def for_step(self, state: State, ahead: float = 0.0) -> System:
         """Return the equations with the branches of a step of second order, `ahead` [s] after a state."""
         if self.maxwell is None or state.memory is None:
             return self
@@ -285,7 +285,7 @@ class System:
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
         """Return kinetic, elastic and potential energy [J], the potential of constant dead loads alone, and
         the force M a + f_int + f_damp − f_ext, (size, 3) [N], of supports and actuators on their masses."""
-        elastic, _, force = self.within(state).internal(state.u, state.v, state.time)
+        elastic, _, force = self.for_step(state).internal(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             elastic += self.maxwell.branches.stored(state.memory)
         energies = {

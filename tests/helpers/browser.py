@@ -27,7 +27,7 @@ def browser() -> Iterator[Any]:
 
 
 class Watch:
-    """What a page did that it should not: errors and warnings of its console, and what it requested."""
+    """A page's faults: errors and warnings of its console, and its requests."""
 
     def __init__(self, page: Any) -> None:
         self.said: list[str] = []
@@ -38,7 +38,7 @@ class Watch:
 
     @property
     def troubles(self) -> list[str]:
-        """What was said, but for the drivers' remarks on reading pictures back from a card that is none."""
+        """The messages, except the drivers' remarks on reading pictures back without a graphics card."""
         return [text for text in self.said if "GPU stall" not in text]
 
 

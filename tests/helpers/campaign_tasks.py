@@ -1,4 +1,4 @@
-"""Tasks for the tests of campaigns: what a worker process is to do."""
+"""Tasks of worker processes for the tests of campaigns."""
 
 import os
 import signal

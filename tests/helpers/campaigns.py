@@ -1,4 +1,4 @@
-"""Campaigns as the tests run and watch them."""
+"""Campaigns with counters and limits for tests."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What the solvers say of the scenes of the catalogue, on small grids, and the lattice of some harder ones.
+"""The solvers' answers to the scenes of the catalogue, on small grids, and the lattice's to some harder ones.
 
 `make catalogue` writes catalogue.json anew, for a change that is meant to change answers; tests compare the
 answers with it, and how many factorisations they take. Newton's iterations end at a residual of 5e-9 of the

@@ -16,7 +16,7 @@ CHANGES = {  # what becomes of vectors in space
 
 
 class _Pen:
-    """Draws numbers, half of them round ones, on which sides and ties of lines lie."""
+    """A source of random numbers, half of them round ones, so that sides and ties of lines lie on them."""
 
     def __init__(self, seed: int, oblique: bool):
         self.random = np.random.default_rng(seed)

@@ -1,4 +1,5 @@
-"""Compiles the kernels, each once, before the tests' processes start, which would each compile them all.
+"""Compilation of the kernels, each once, before the tests' processes start, which would each compile them
+all.
 
     python tests/helpers/kernels.py
 

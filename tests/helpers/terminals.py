@@ -1,4 +1,4 @@
-"""A program on a terminal of its own, as a person has it: what it shows, keys pressed, how it ends."""
+"""A program on a terminal: its screen, keys pressed, its end."""
 
 import fcntl
 import os

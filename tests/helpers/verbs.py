@@ -1,4 +1,4 @@
-"""A small command line of every verb but `live`, its files, and one kept run, laid out at any width."""
+"""A small command line of every verb but `live`, its files, and one stored run, laid out at any width."""
 
 import io
 import json

@@ -127,7 +127,7 @@ class Esdirk(Integrator):
     def _begin(self, state: State) -> None:
         """Set the first step [s] and the displacement that errors are relative to before any motion:
         fractions of the time and distance to equilibrium if the lattice were linear."""
-        system, still = self.system.within(state), np.zeros_like(state.u)
+        system, still = self.system.for_step(state), np.zeros_like(state.u)
         problem = system.problem
         force = system.unbalanced(state.u, still, state.time)
         try:
@@ -151,7 +151,7 @@ class Esdirk(Integrator):
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.prescribed.jumps(now):  # and so do dampers: the steps begin as at the start
                 self.control.step = min(self.control.step, self._first)
-            force = system.within(state).unbalanced(state.u, state.v, now)
+            force = system.for_step(state).unbalanced(state.u, state.v, now)
             state = replace(state, time=now, a=system.accelerate(force))
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
@@ -233,8 +233,8 @@ class Esdirk(Integrator):
         return np.array([self.system.power(state), self._put_in(state)])
 
     def _put_in(self, stage: State, before: bool = False) -> float:
-        """Power [W] that moving supports, but for what speeds up their own masses, and loads without a
-        potential put in from a moment on, or until then."""
+        """Power [W] put in by moving supports, without the acceleration of their own masses, and by loads
+        without a potential, from a moment on, or until then."""
         system, motion, put_in = self.system, self.system.prescribed, 0.0
         if motion.moving:
             put_in += float(np.sum(system.exerted(stage) * motion.rate(stage.time, before=before)))

@@ -136,7 +136,7 @@ class Newton:
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
 
     def correction(self, residual: np.ndarray) -> np.ndarray | None:
-        """Return the change (n, 3) [m] with which the factors kept take a residual (m,) off, None without."""
+        """Return the change (n, 3) [m] by the stored factors for a residual (m,), None without factors."""
         problem, band = self._system.problem, self._system.problem.system.band
         if self._factored is not None and band is not None:
             found = banded.solve_unrefined(self._factors, band.width, band.order, residual)

@@ -79,7 +79,7 @@ class Sided:
         for system, sign, memory in zip(self.systems, SIGNS, self.memories, strict=True):
             u, v, a = at + sign * self.change
             state = State(time, u, v, a, memory)
-            found.append(system.accelerate(system.within(state).unbalanced(state.u, state.v, time)))
+            found.append(system.accelerate(system.for_step(state).unbalanced(state.u, state.v, time)))
         return np.asarray(0.5 * (found[0] - found[1]))
 
 

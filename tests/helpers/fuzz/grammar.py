@@ -1,4 +1,4 @@
-"""What is thrown at the program: scenes, command lines and measured files, sound ones and mutated ones.
+"""Random inputs of the program: scenes, command lines and measured files, valid ones and mutated ones.
 
 A scene is drawn from a grammar of sound ones, or is one of the catalogue; a mutation then drops, doubles,
 swaps, renames or replaces values anywhere in it, and another breaks its text.

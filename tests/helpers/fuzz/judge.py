@@ -1,4 +1,4 @@
-"""What every run must keep to: its exit status, its words, its numbers, its folder."""
+"""Requirements on every run: its exit status, its messages, its numbers, its folder."""
 
 import contextlib
 import io

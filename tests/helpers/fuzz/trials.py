@@ -1,4 +1,4 @@
-"""One thing thrown at the program, judged: what became of it in a word, or an AssertionError.
+"""Trials of one random input: the outcome in a word, or an AssertionError.
 
 Each takes a folder of its own, in which it may write, and what its strategy of `fuzz.grammar` has drawn.
 """

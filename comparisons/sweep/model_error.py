@@ -103,7 +103,7 @@ def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> Mod
     plate, which is linear, have no bounds. law_chosen: whether the user chose the law of strain."""
     if answer.status is not Status.CONVERGED or answer.stretch is None or answer.model not in MODELS:
         return None
-    slenderness, poisson = scene.sheet.thickness / min(_whole(scene)), scene.material.poisson
+    slenderness, poisson = scene.sheet.thickness / min(_whole_sides(scene)), scene.material.poisson
     square = _over_length_that_bends(slenderness**2, answer.energies)
     clamped = any(isinstance(support, Clamped | Curved) for support in scene.supports)
     soft = any(isinstance(support, Hinged) and not tilt_axes(support) for support in scene.supports)
@@ -124,7 +124,7 @@ def _over_length_that_bends(square: float, energies: Mapping[str, float]) -> flo
     return min(square, (shear + membrane * square) / whole) if whole > 0.0 else square
 
 
-def _whole(scene: Scene) -> list[float]:
+def _whole_sides(scene: Scene) -> list[float]:
     """Return the sides [m] of the whole sheet if planes of symmetry cut it; infinite between two planes."""
     planes = [EDGES[s.edge].normal_axis for s in scene.supports if isinstance(s, Symmetric)]
     return [side * (1.0, 2.0, np.inf)[planes.count(axis)] for axis, side in enumerate(scene.sheet.lengths)]

@@ -27,7 +27,7 @@ FEW: dict[str, Any] = {  # of comparisons.stability.extremes: two runs along eac
 }
 
 
-class Here(Executor):
+class Serial(Executor):
     """A pool that is this process: what is submitted is carried out at once."""
 
     def __init__(self, workers: int = 1) -> None:

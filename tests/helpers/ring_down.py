@@ -7,9 +7,9 @@ from sheetbench.scenes import Clamped, Held, Material, Motion, Relaxation, Scene
 BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
 
 
-def pulled(material: Material, by: float, within: float) -> Scene:
+def pulled(material: Material, by: float, duration: float) -> Scene:
     """Return a strip whose end is pulled [m] and then held [s]."""
-    pull = Motion(time=(0.0, within), displacement=((0.0, 0.0, 0.0), (by, 0.0, 0.0)))
+    pull = Motion(time=(0.0, duration), displacement=((0.0, 0.0, 0.0), (by, 0.0, 0.0)))
     supports = (Clamped("x0"), Held("x1", ("x", "y", "z"), motion=pull))
     return Scene("strip", Sheet(0.1, 0.04, 0.002), material, supports=supports, probes={"P": (0.05, 0.0)})
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from campaigns import FEW, Here
+from campaigns import FEW, Serial
 from commands import run
 from matplotlib.figure import Figure
 from rich.console import Console
@@ -81,18 +81,18 @@ def in_python(verb: str, words: Iterable[str]) -> Any:
     return json.loads(to_json(function(**taken).document()))
 
 
-def values_of(found: Any, left_out: tuple[str, ...], name: str = "") -> Iterator[tuple[str, Any]]:
+def values_of(document: Any, left_out: tuple[str, ...], name: str = "") -> Iterator[tuple[str, Any]]:
     """Yield every number and text of a document with the path to it, except below keys with one of these
     words."""
-    if isinstance(found, dict):
-        for key, value in found.items():
+    if isinstance(document, dict):
+        for key, value in document.items():
             if not any(word in key for word in left_out):
                 yield from values_of(value, left_out, f"{name}.{key}")
-    elif isinstance(found, list):
-        for i, value in enumerate(found):
+    elif isinstance(document, list):
+        for i, value in enumerate(document):
             yield from values_of(value, left_out, f"{name}.{i}")
-    elif not (isinstance(found, float) and math.isnan(found)):
-        yield name, found
+    elif not (isinstance(document, float) and math.isnan(document)):
+        yield name, document
 
 
 def undraw(patch: pytest.MonkeyPatch) -> None:
@@ -107,8 +107,8 @@ def undraw(patch: pytest.MonkeyPatch) -> None:
 
 def run_here(patch: pytest.MonkeyPatch) -> None:
     """Run campaigns in this process: no worker has to start."""
-    patch.setattr(executors, "Processes", Here)
-    patch.setitem(carry_out.__kwdefaults__, "pool", Here)
+    patch.setattr(executors, "Processes", Serial)
+    patch.setitem(carry_out.__kwdefaults__, "pool", Serial)
 
 
 def few_runs(patch: pytest.MonkeyPatch) -> None:
@@ -120,7 +120,7 @@ def few_runs(patch: pytest.MonkeyPatch) -> None:
 
 
 @dataclass
-class Kept:
+class StoredRun:
     """A run of a small command line with --json and --out: its exit status, what it printed, its folder and
     its answer."""
 
@@ -146,7 +146,7 @@ class Kept:
         return stream.buffer.getvalue().decode(encoding)  # type: ignore[attr-defined]
 
 
-def keep(name: str, base: Path) -> Kept:
+def keep(name: str, base: Path) -> StoredRun:
     """Run a small command line in a folder that has the inputs; its files go to the folder of its name."""
     words, folder = SMALL[name].split(), base / name
     answers: list[Answer] = []
@@ -167,4 +167,4 @@ def keep(name: str, base: Path) -> Kept:
         few_runs(patch)
         patch.setattr(Output, "show", shown)
         status = run(*words, *plain)
-    return Kept(status, out.getvalue(), err.getvalue(), folder, answers[0] if answers else None)
+    return StoredRun(status, out.getvalue(), err.getvalue(), folder, answers[0] if answers else None)

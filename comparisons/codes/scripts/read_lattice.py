@@ -11,14 +11,14 @@ import numpy as np
 def differences(lattice):
     """Return matrices from positions (n, 3) to the springs' vectors: along links, across cells."""
     of = np.eye(len(lattice["positions"]))
-    found = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
+    matrices = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
     for kind in ("area", "strain", "coupling", "rubber", "face"):
         corner = of[lattice[f"{kind}_corners"]].mean(axis=2)  # of one mass or several
         first, second = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
-        found[kind] = (first - second) / 2, (first + second) / 2  # mean sides
-        found[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
-    found["contact"] = np.einsum("pq,pqn->pn", lattice["contact_weights"], of[lattice["contact_masses"]])
-    return found
+        matrices[kind] = (first - second) / 2, (first + second) / 2  # mean sides
+        matrices[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
+    matrices["contact"] = np.einsum("pq,pqn->pn", lattice["contact_weights"], of[lattice["contact_masses"]])
+    return matrices
 
 
 def dot(a, b):
@@ -105,37 +105,37 @@ def faces(lattice, along, x, g):
 def neighbours(along):
     """Return a mask of masses (n, n) with a common spring, and groups of masses without common neighbours."""
     pairs = [
-        abs(each) if kind in ("link", "contact") else sum(map(abs, each))
-        for kind, each in along.items()
+        abs(matrix) if kind in ("link", "contact") else sum(map(abs, matrix))
+        for kind, matrix in along.items()
         if not kind.endswith("_warp")
     ]
     near = sum(touched.T @ touched for touched in pairs) > 0
-    alone, groups, left = near @ near, [], list(range(len(near)))
-    while left:
+    sharing, groups, remaining = near @ near, [], list(range(len(near)))
+    while remaining:
         group = []
-        for mass in left:
-            if not alone[mass, group].any():
+        for mass in remaining:
+            if not sharing[mass, group].any():
                 group.append(mass)
-        groups, left = [*groups, group], [mass for mass in left if mass not in group]
+        groups, remaining = [*groups, group], [mass for mass in remaining if mass not in group]
     return near, groups
 
 
 def stiffness(lattice, along, shared, u, force, h):
     """Return the tangent (3 n, 3 n) [N/m] by differences; the masses of a group are moved together."""
     (near, groups), n = shared, len(u)
-    found = np.zeros((n, 3, n, 3))
+    tangent = np.zeros((n, 3, n, 3))
     for group in groups:
         for axis in range(3):
             moved = u.copy()
             moved[group, axis] += h
             ahead = (gradient(lattice, along, moved)[1] - force) / h
-            found[:, :, group, axis] = near[:, None, group] * ahead[:, :, None]
-    return found.reshape(3 * n, 3 * n)
+            tangent[:, :, group, axis] = near[:, None, group] * ahead[:, :, None]
+    return tangent.reshape(3 * n, 3 * n)
 
 
 def part_of(lattice, along, part, share):
     """Return the lattice with parts of its natural state and of the stiffness of contact."""
-    found = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
+    partial = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
     rest = lattice["positions"]
     flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
     for kind in ("area", "strain", "coupling"):
@@ -143,9 +143,9 @@ def part_of(lattice, along, part, share):
         flat[f"{kind}_rest"] = np.linalg.norm(np.cross(a, b), axis=1)
         flat[f"{kind}_natural"] = np.hstack([dot(a, a), dot(b, b), dot(a, b)])
     for name, values in flat.items():
-        if name in found:
-            found[name] = values + part * (lattice[name] - values)
-    return found
+        if name in partial:
+            partial[name] = values + part * (lattice[name] - values)
+    return partial
 
 
 def equilibrium(lattice, along, steps=1):

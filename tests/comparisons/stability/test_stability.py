@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from campaigns import Here
+from campaigns import Serial
 
 import lumped
 from comparisons.models.resolve import resolve
@@ -20,7 +20,7 @@ SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")
 
 
 def varied(store, *names, scene=SEED, grid=5):
-    return stability(scene, store, varied=names, lattice=Lattice(grid), elements=4, pool=Here)
+    return stability(scene, store, varied=names, lattice=Lattice(grid), elements=4, pool=Serial)
 
 
 @pytest.mark.parametrize(("name", "factor"), [("load", 3.0), ("slenderness", 0.1), ("young", 100.0)])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from campaigns import Here
+from campaigns import Serial
 
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.crosscheck import crosscheck
@@ -22,26 +22,26 @@ MESHES = [Elements("shell", n) for n in (8, 6, 4)]
 def test_questions_are_readings_of_the_same_rows(store):
     """Bar, error and pair to the last digit, whoever wants them."""
     lattices = [Lattice(n, "consistent") for n in (3, 5)]
-    rows = sweep([Request(SEED, spec) for spec in (*MESHES, *lattices)], store, pool=Here)
+    rows = sweep([Request(SEED, spec) for spec in (*MESHES, *lattices)], store, pool=Serial)
     shells, own = rows[:3], rows[3:]
     bar = limit(shells)
     assert bar is not None
     compared = compare(SEED, lattices[1], elements=8, companion=False)
     assert compared.bar is not None and compared.bar.error == bar.error
     assert compared.error(compared.solutions[0]) == error(own[1].u, shells[0].u)
-    traded = tradeoff(SEED, lattices, store, reference=MESHES[0], repeats=1, pool=Here)
+    traded = tradeoff(SEED, lattices, store, reference=MESHES[0], repeats=1, pool=Serial)
     assert traded.uncertainty == bar.error
     assert [row.error for row in traded.rows] == [error(row.u, shells[0].u) for row in own]
     trials = TrialSolves(SEED)
     assert all(trials.refine() for _ in MESHES)
     assert trials.uncertainty == pytest.approx(bar.error, rel=1e-12)  # of (8, 8) elements, not 8
-    checked = crosscheck([SEED], store, models={"lumped": lattices, "shell": MESHES}, pool=Here)
+    checked = crosscheck([SEED], store, models={"lumped": lattices, "shell": MESHES}, pool=Serial)
     assert checked.pairs == pairs([Limit.of("lumped", own), Limit.of("shell", shells)])
 
 
 def test_a_column_is_a_function_of_scene_and_answer(store, monkeypatch):
     monkeypatch.setitem(columns.COLUMNS, "strain energy", lambda scene, answer: answer.energies)
-    (row,) = sweep([Request(SEED, Elements("plate", 2), columns=("strain energy",))], store, pool=Here)
+    (row,) = sweep([Request(SEED, Elements("plate", 2), columns=("strain energy",))], store, pool=Serial)
     assert row.row["columns"]["strain energy"] == row.document["energies"]
 
 
@@ -57,7 +57,7 @@ def test_tags_and_labels_make_no_other_row():
 def test_a_motion_is_a_row_with_a_history(store):
     scene = load("two-edges-settling")
     run = {"integrator": "midpoint", "step": 1e-3}
-    (row,) = sweep([Request(scene, Lattice(3), duration=4e-3, every=2e-3, run=run)], store, pool=Here)
+    (row,) = sweep([Request(scene, Lattice(3), duration=4e-3, every=2e-3, run=run)], store, pool=Serial)
     assert row.usable and row.history is not None and row.row["unknowns"] > 0
     np.testing.assert_allclose(row.history.time, [0.0, 2e-3, 4e-3])
     assert row.u.shape == (3 * len(scene.probes), 3) and row.row["cost"]["peak_memory_bytes"] >= 0

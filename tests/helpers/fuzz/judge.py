@@ -47,27 +47,27 @@ def outcome(arguments: Sequence[str], folder: Path) -> Outcome:
     return Outcome(status, out.getvalue(), err.getvalue())
 
 
-def held(found: Outcome, about: object) -> None:
+def held(result: Outcome, about: object) -> None:
     """Assert a documented status, no traceback, a refusal in one line at the end, no raw control
     characters."""
-    said = f"{about!r} → {found.status}\n{found.out[-2000:]}\n{found.err[-6000:]}"
-    assert found.status in (DONE, BAD_INPUT, NOT_CONVERGED), said
-    assert "Traceback" not in found.out + found.err, said
-    if found.status == BAD_INPUT:
-        last = found.err.rstrip("\n").rpartition("\n")[2]
+    said = f"{about!r} → {result.status}\n{result.out[-2000:]}\n{result.err[-6000:]}"
+    assert result.status in (DONE, BAD_INPUT, NOT_CONVERGED), said
+    assert "Traceback" not in result.out + result.err, said
+    if result.status == BAD_INPUT:
+        last = result.err.rstrip("\n").rpartition("\n")[2]
         assert last.strip() and len(last) <= LONGEST, said
-        assert not found.out, said
-    for text in (found.out, found.err):
+        assert not result.out, said
+    for text in (result.out, result.err):
         assert not any((c < " " and c not in "\n\t\r") or "\x7f" <= c < "\xa0" for c in text), said
 
 
-def document(found: Outcome) -> Any:
+def document(result: Outcome) -> Any:
     """Return the JSON document of a run, if any; assert that every number in it is finite."""
 
     def refuse(word: str) -> None:
-        raise AssertionError(f"{word} in {found.out[:2000]}")
+        raise AssertionError(f"{word} in {result.out[:2000]}")
 
-    return json.loads(found.out, parse_constant=refuse)
+    return json.loads(result.out, parse_constant=refuse)
 
 
 def in_balance(answer: dict[str, Any]) -> None:

@@ -271,7 +271,7 @@ def test_a_disc_is_one_word_in_a_file_too(tmp_path):
     assert found.region.area == pytest.approx(np.pi * 0.015 * 0.01, rel=1.01e-4)
     assert "(an ellipse)" in dict(in_words(found))["sheet"]
     assert Scene.model_validate(found.document()) == found
-    with pytest.raises(SceneError, match="mesh_scale: is of a file"):
+    with pytest.raises(SceneError, match="mesh_scale: for a file"):
         found.replace(outline="disc", mesh_scale=1e-3)
 
 

@@ -67,7 +67,7 @@ BAD = {
     "underscore": ("x,y,uz\n0.1,0.1,1_0\n", ["line 2", "uz = '1_0'"]),
     "both marks": ("x;y;uz\n0,1;0,1;-0.001\n", ["decimal commas (line 2)", "points (line 2)"]),
     "twice": ("x,y,uz,uz\n0.1,0.1,1e-3,1e-3\n", ["column uz is there twice"]),
-    "elbows in the header": ("x,y,uz [elbow]\n0.1,0.1,1\n", ["uz [elbow]", "no unit known"]),
+    "elbows in the header": ("x,y,uz [elbow]\n0.1,0.1,1\n", ["uz [elbow]", "no known unit"]),
     "seconds of a length": ("x,y,uz [ms]\n0.1,0.1,1\n", ["uz [ms]", "a time; a length is needed"]),
     "a moving surface": ("time,x,y,z\n0.1,0.1,0.1,1e-3\n", ["column time"]),
     "no heights": ("x,y,z\n0.1,0.1,nan\n", ["no points"]),

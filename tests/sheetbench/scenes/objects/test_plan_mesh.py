@@ -134,7 +134,7 @@ def test_a_cutout_beside_a_mesh_is_refused(tmp_path):
     path = written(tmp_path, *frame())
     cutout = "[[cutout]]\nshape = { circle = { centre = [0.1, 0.1], radius = 0.01 } }\n"
     path.write_text(path.read_text() + cutout)
-    with pytest.raises(SceneError, match=r"cutout 1: beside sheet\.mesh"):
+    with pytest.raises(SceneError, match=r"cutout 1: not with sheet\.mesh"):
         load(path)
 
 

@@ -55,7 +55,7 @@ def test_a_quantity_is_the_number_in_si_units_to_the_last_digit(text, unit, valu
         ("two", "m", "write a number [m], or with a unit: 2 mm"),
         ("nan", "m", "is no quantity"),
         ("1e301 m", "m", "too large"),
-        ("3 m^999999999", "m", "no unit known"),
+        ("3 m^999999999", "m", "no known unit"),
     ],
 )
 def test_what_is_no_quantity_of_the_kind_is_refused_by_name(text, unit, said):
@@ -120,7 +120,7 @@ def test_a_file_takes_quantities_wherever_a_number_has_a_unit(tmp_path):
     ("text", "stands", "said"),
     [
         ('"120 mm"', '"120 MPa"', "sheet.length_x: '120 MPa' is a stress or modulus; a length is needed"),
-        ('"100 ms"], value', '"100 mm"], value', "actuator 1.curvature.time 2: '100 mm' is a length; needed"),
+        ('"100 ms"], value', '"100 mm"], value', "curvature.time 2: '100 mm' is a length; a time is needed"),
         ('"10 mm"', '"10 s"', "probes.P1 1: '10 s' is a time; a length is needed"),
         ("poisson = 0.45", 'poisson = "0.45"', "material.poisson = '0.45': must be a number"),
         ("segments = 8", 'segments = "8"', "segments = '8': must be a whole number"),

@@ -40,7 +40,7 @@ templates_path: list[str] = []
 
 myst_heading_anchors = 3
 nb_execution_mode, nb_execution_timeout = "cache", 600  # run again only when their cells change
-nb_execution_raise_on_error, nb_output_stderr = True, "remove"
+nb_execution_raise_on_error, nb_merge_streams, nb_output_stderr = True, True, "remove"
 myst_enable_extensions = ["dollarmath"]
 
 autodoc_typehints = "description"

@@ -84,7 +84,7 @@ def _in_notebook() -> Iterator[Callable[[object], None]]:
         yield change
     finally:
         if handle is not None:
-            handle.update({"text/plain": ""}, raw=True)
+            handle.update({"text/plain": "", "text/html": ""}, raw=True)
 
 
 def tell(text: str) -> None:

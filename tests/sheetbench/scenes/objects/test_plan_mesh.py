@@ -223,24 +223,29 @@ MAKERS = {
 @pytest.mark.parametrize("maker", MAKERS)
 def test_obj_files_are_read_as_their_makers_write_them(tmp_path, maker):
     path = beside(tmp_path, "m.obj", MAKERS[maker], 0.25, 0.25)
-    with pytest.raises(SceneError, match=r"mesh_scale = 0\.25 times what it is makes it as long"):
-        load(path)
-    path.write_text(path.read_text().replace('"m.obj"', '"m.obj", mesh_scale = 0.25'))
-    with pytest.raises(SceneError, match='mesh_shift = "corner" puts them there'):
-        load(path)
-    read = {}
-    for shift in ('"corner"', '"centre"', "[0.125, 0.125]"):
-        text = path.read_text().replace("mesh_scale", f"mesh_shift = {shift}, mesh_scale")
-        (tmp_path / "moved.toml").write_text(text)
-        read[shift] = load(tmp_path / "moved.toml")
-    assert len(set(map(str, (scene.sheet.mesh for scene in read.values())))) == 1
-    scene = read['"corner"']
+    path.write_text(path.read_text().replace('"m.obj"', '"m.obj", mesh_scale = 0.25, mesh_shift = "corner"'))
+    scene = load(path)
     assert scene.region.bounds == (0.0, 0.0, 0.25, 0.25) and scene.region.area == pytest.approx(0.0625)
     turned = {"blender": "xz", "bullet y up": "xz", "sofa quads": "yz"}.get(maker)
     said = dict(in_words(scene))["sheet"]
     assert f"turned from its {turned} plane" in said if turned else "turned" not in said
     assert "1 unit of it is 250 mm, moved by 125, 125 mm" in said
     assert Scene.model_validate(scene.document()) == scene
+
+
+def test_a_mesh_is_scaled_and_moved_by_two_keys_that_refusals_name(tmp_path):
+    path = beside(tmp_path, "m.obj", MAKERS["sofa quads"], 0.25, 0.25)
+    with pytest.raises(SceneError, match=r"mesh_scale = 0\.25 times what it is makes it as long"):
+        load(path)
+    path.write_text(path.read_text().replace('"m.obj"', '"m.obj", mesh_scale = 0.25'))
+    with pytest.raises(SceneError, match='mesh_shift = "corner" puts them there'):
+        load(path)
+    meshes = []
+    for shift in ('"corner"', '"centre"', "[0.125, 0.125]"):
+        text = path.read_text().replace("mesh_scale", f"mesh_shift = {shift}, mesh_scale")
+        (tmp_path / "moved.toml").write_text(text)
+        meshes.append(load(tmp_path / "moved.toml").sheet.mesh)
+    assert meshes[0].points[0] == (0.0, 0.0) and meshes[1:] == 2 * meshes[:1]
 
 
 def test_a_mesh_is_as_precise_as_its_file(tmp_path):

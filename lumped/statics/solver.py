@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache, partial
 from typing import Literal
 
@@ -127,10 +126,9 @@ def solve(
     seconds = ready_time - start_time, now() - ready_time
     options = {"branch": (branch, "path"), "weights": (weights, "tributary"), "linear": (linear, False)}
     requested = {name: value for name, (value, default_value) in options.items() if value != default_value}
-    result = solution(problem, path, calibration, seconds, requested)
-    if linear or weights != "tributary":
-        return result
-    return replace(result, sensitivity=partial(Equilibrium.of, scene, calibration, path.state.u, calibrate))
+    derivatives = partial(Equilibrium.of, scene, calibration, path.state.u, calibrate)
+    differentiable = not linear and weights == "tributary"
+    return solution(problem, path, calibration, seconds, requested, derivatives if differentiable else None)
 
 
 @cache

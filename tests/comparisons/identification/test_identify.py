@@ -57,6 +57,7 @@ def test_where_an_obstacle_is_and_how_thick_are_found_again(name, true):
     assert found.converged and found.unknowns[name].value == pytest.approx(true, rel=1e-6)
 
 
+@pytest.mark.nightly
 def test_the_interval_holds_the_true_value_in_17_of_20_draws():
     """1 % of the largest displacement as noise in every component; the search starts up to 65 % away."""
     rng = np.random.default_rng(11)
@@ -313,6 +314,7 @@ def test_the_finer_lattice_of_a_drawn_sheet_has_lines_on_shapes_too():
 DAMPED = CANTILEVER.replace(loss_factor=0.12, frequency=3.0)
 
 
+@pytest.mark.nightly
 def test_a_reference_follows_a_measured_motion():
     """Within what a hundred steps a period leave, against finer ones."""
     run = fem_reference.simulate(DAMPED, "shell", 0.15, elements=1, step=1e-3)

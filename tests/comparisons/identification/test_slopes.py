@@ -77,6 +77,7 @@ def test_a_field_over_the_cells_is_smoothed_until_noise_is_left(tmp_path):
             identify(SCENE, given, names, Lattice(9))
 
 
+@pytest.mark.nightly
 def test_one_run_has_the_derivatives_of_a_motion(monkeypatch):
     """In a quarter of the runs of differences at most, and what is found is the same."""
     springs = lumped.calibrate(DAMPED.sheet, DAMPED.material, (4, 4))

@@ -73,6 +73,7 @@ def test_a_fault_of_the_program_is_no_verdict_on_a_model(store, monkeypatch):
     assert all(one["facecolor"] != "#ffffff" or one["hatch"] for one in looks)  # white: nothing was run
 
 
+@pytest.mark.nightly
 def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
     """Undamped to a hundredth of it; damped, the computed one is no larger than the measured, by as much."""
     monkeypatch.setattr(extremes, "DAMPING", (0.0,))

@@ -89,6 +89,7 @@ def block(obstacle, slope=0.0, **more):
     return sheet(0.02, 0.02, 0.002, 5e6, held="", gravity=gravity, obstacles=(obstacle,), **more)
 
 
+@pytest.mark.nightly
 def test_restitution_of_the_dashpot():
     tau, drop = 0.5, 0.02
     fall = block(Plane(position=(0.0, 0.0, -drop - 0.001), contact_damping=tau))

@@ -6,12 +6,13 @@ from cases import GRAVITY, OBLONG, SILICONE, sheet
 
 from sheetbench import face
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import AreaLoad, Chain, Clamped, EdgeMotion, Gravity, Material, PointLoad, Scene, load
+from sheetbench.scenes import AreaLoad, Chain, Clamped, EdgeMotion, Gravity, Material, Natural, PointLoad, Scene, Temperature, load
 from sheetbench.scenes.objects.supports import Motion
 
 FOUR = {"elements": 4}
 ALL = {"lumped": {"grid": (9, 9, 2)}, "plate": FOUR, "shell": FOUR, "solid": {"elements": 2}}
 PLAIN, CURVED = load("two-edges-clamped"), load("curved-edge")
+TABLE = load("strip-on-table").replace(expansion=1e-4)
 YOUNG, POISSON = PLAIN.material.young, PLAIN.material.poisson
 SHEAR = YOUNG / (2.0 * (1.0 + POISSON))
 SAME = dict(young_1=YOUNG, young_2=YOUNG, poisson_12=POISSON, shear_12=SHEAR, angle=0.3)
@@ -105,6 +106,8 @@ PAIRS = {  # two scenes, models, and how far apart their answers may be
     "layers of one material": (
         with_fibres(**FIBRES, angle=0.4),
         with_fibres(**FIBRES, angle=0.4).replace(layers=[{"thickness": 1e-3}] * 3), SHEETS, 1e-8),
+    "a natural state of zero over a table": (
+        TABLE, TABLE.replace(natural=Natural(), temperature=Temperature()), ("lumped", "shell"), 1e-7),
     "an outline that is the rectangle": (
         PLAIN, PLAIN.replace(outline=AROUND), ("lumped",), 1e-9),
     "chains that meet, in either order": (rods(*MEETING), rods(*MEETING[::-1]), ("lumped", "shell"), 1e-6),

@@ -11,7 +11,6 @@ more than a quarter of its radius in one.
 
 A penalty has the `obstacle`, the acting `share` of its stiffness, and at its points the full stiffness `full`
 (…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method `near` takes the points as `placed`.
-Penalties of obstacles out of reach do not change the path (`reachable`).
 """
 
 from __future__ import annotations
@@ -33,7 +32,6 @@ LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to 
 LOOSE, CLOSE = 0.05, 0.01  # residuals at which soft load steps end, and stages but the last
 PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
-REACH = 10.0  # of the size, from rest beyond all prescribed motions
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
@@ -51,22 +49,13 @@ def require_way(path: Path[State, Forces], state: State, load_factor: float) -> 
         raise LoadStepFailed(Status.STEP_LIMIT, "a step led through an obstacle", path.limits.first_reach)
 
 
-def reachable(structure: Structure[State, Forces]) -> list[Any]:
-    """Return the penalties without those of obstacles that the structure cannot reach."""
-    rest = structure.rest()
-    at, reach = structure.placed(rest, 1.0), structure.size * (REACH + structure.gap(rest, 1.0))
-    ways = [float(np.linalg.norm(one.obstacle.place() - one.obstacle.position)) for one in structure.contacts]
-    both = zip(structure.contacts, ways, strict=True)
-    return [one for one, way in both if one.near(at).depth.max() > -reach - way]
-
-
-def softest(structure: Structure[State, Forces], contacts: Sequence[Any]) -> float:
+def softest(structure: Structure[State, Forces]) -> float:
     """Set the penalties to 0 and return the first share of their stiffness: points are DEPTH deep with it
     under the load, or a pressure that bends a plate of this size by the prescribed motion (8 D per size⁴)."""
     shares, size = [1.0], structure.size
-    soften(contacts, 0.0)
+    soften(structure.contacts, 0.0)
     force, gap = structure.loading(), size * structure.gap(structure.rest(), 1.0)
-    for one in contacts:
+    for one in structure.contacts:
         bending, body = float((one.full * one.thickness**4).max()) / 12.0, one.obstacle
         bent = 8.0 * bending * max(gap, float(np.linalg.norm(body.place() - body.position))) / size**4
         deep = DEPTH * min(size, 0.2 * body.radius) * float(one.full.min())
@@ -77,20 +66,18 @@ def softest(structure: Structure[State, Forces], contacts: Sequence[Any]) -> flo
 def stiffened(
     path: Path[State, Forces],
     trace: Callable[[Path[State, Forces]], Fault | None],
-    contacts: Sequence[Any],
     near: Start[State] | None = None,
 ) -> Fault | None:
     """Lead a path from rest to the equilibrium at full load with stiff penalties; return the fault of an
-    earlier end, else None. trace: traces a path with given penalties; contacts: `reachable`; near: a start
-    for a descent."""
-    structure, limits = path.structure, path.limits
+    earlier end, else None. trace: traces a path with given penalties; near: a start for a descent."""
+    structure, limits, contacts = path.structure, path.limits, path.structure.contacts
     down = path.settle if structure.symmetric else None
     if near is not None and down is not None:
         path.put(near.state, 0.0)
         with suppress(LoadStepFailed):
             path.put(down(path, 1.0), 1.0)
             return path.inspect(path)
-    share = softest(structure, contacts)
+    share = softest(structure)
     while True:  # without a `settle`, a share that fails is too soft
         soften(contacts, share)
         path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE))
@@ -98,7 +85,7 @@ def stiffened(
         path.limits = limits
         if ended is None:
             path.forget()
-            ended = _raised(path, contacts, share)
+            ended = _raised(path, share)
         if ended is None or share == 1.0 or down is not None:
             break
         share = min(1.0, 30.0 * share)
@@ -121,7 +108,7 @@ def stiffened(
     return None
 
 
-def _raised(path: Path[State, Forces], contacts: Sequence[Any], share: float) -> Fault | None:
+def _raised(path: Path[State, Forces], share: float) -> Fault | None:
     """Raise the penalties from a share to their full stiffness; return the fault of an earlier end."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
@@ -129,7 +116,7 @@ def _raised(path: Path[State, Forces], contacts: Sequence[Any], share: float) ->
 
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
-        soften(contacts, target)
+        soften(structure.contacts, target)
         close = CLOSE if target < 1.0 else 0.0
         try:
             state, size = structure.restarted(path.state)

@@ -33,7 +33,7 @@ def cell_shares(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarr
     if shape is None and not scene.pierced:
         return np.ones(lattice.cell_areas.size)
     share = shares_of(part_of(scene, shape), *(lines.at for lines in lattice.lines))
-    return np.asarray(share.ravel()[lattice.kept])
+    return np.asarray(share.ravel()[lattice.present_cells])
 
 
 def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarray:
@@ -146,8 +146,8 @@ def reached_parts(scene: Scene) -> Reach:
         shape = None if isinstance(one, Point) or holds_director(one) else place(one)
         if shape is not None and shape.rectangle is None and not part_of(scene, shape).area:
             why = (
-                "the lattice holds round and oblique rims clamped alone: masses held in a zigzag hold their "
-                "slope too; plate, shell and solid have it hinged"
+                "the lattice can only clamp round and oblique rims: its masses there hold the slope too; "
+                "choose plate, shell or solid"
             )
             raise BadInput(f"{name}.where: {why}")
     held = [s for s in scene.supports if place(s) is None and not isinstance(s, Symmetric)]

@@ -63,7 +63,7 @@ static double inside(const double *d, const double *k, double *load) { /* over t
   }
   return energy;
 }
-static real patch(sheet *s, const unsigned *of) { /* sets the loads of the nine points of a part of a cell; returns the energy */
+static real patch(sheet *s, const int *of) { /* sets the loads of the nine points of a part of a cell; returns the energy */
   double d[9], k[9], load[9], energy = 0, most = s->touch[of[0]][3], least = most;
   for (int n = 0; n < 9; n++) d[n] = s->touch[of[n]][3], most = d[n] > most ? d[n] : most, least = d[n] < least ? d[n] : least;
   if (most + least + 1.5625 * (most - least) <= 0) return 0; /* nowhere deeper than the mean by more than this */

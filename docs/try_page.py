@@ -23,9 +23,9 @@ SCENES = ("two-edges-clamped", "one-edge-clamped")
 THICKNESSES = (0.002, 0.003, 0.004, 0.006)  # m
 LOADS = (0.25, 0.5, 1.0, 2.0, 4.0)  # g/E over the scene's
 POINTS = 5  # along a side, that can be dragged
-CALLED = ("sheet_reset", "sheet_step", "sheet_set_force", "sheet_probe", "SHEET", "THREE", "SHEET_REST")
+EXPORTS = ("sheet_reset", "sheet_step", "sheet_set", "sheet_get", "SHEET", "SHEET_REST")
 COMPILER = [sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-freestanding", "-O3", "-nostdlib", "-s"]
-COMPILER += ["-Dsqrt=__builtin_sqrt", "-Wl,--no-entry", *(f"-Wl,--export={name}" for name in CALLED)]
+COMPILER += ["-Dsqrt=__builtin_sqrt", "-Wl,--no-entry", *(f"-Wl,--export={name}" for name in EXPORTS)]
 
 
 def scene_of(name: str, thickness: float) -> Scene:
@@ -70,7 +70,7 @@ def build(folder: Path) -> str:
             springs = resolve(scene, Lattice(9), "springs", own=False).calibrated([scene])
             with tempfile.TemporaryDirectory() as place:
                 texts = program(scene, springs, steps=20).texts
-                for file, more in (("sheet.h", ""), ("sheet.c", "sheet SHEET; double THREE[3];\n")):
+                for file, more in (("sheet.h", ""), ("sheet.c", "sheet SHEET;\n")):
                     (Path(place) / file).write_text(texts[file] + more, encoding="utf-8")
                 out = (folder / f"{name}-{1e3 * thickness:g}.wasm").resolve()
                 subprocess.run([*COMPILER, "sheet.c", "-o", str(out)], cwd=place, check=True)

@@ -2,7 +2,8 @@
 "use strict";
 const SCENES = { "two-edges-clamped": "two edges clamped", "one-edge-clamped": "one edge clamped" };
 const YOUNG = 54.5e6, GRAVITY = 9.81, SIDE = 0.188, POINTS = 5, LAST = POINTS * POINTS - 1;
-const COLUMNS = 9, LAYERS = 2, HELD = 15; // masses along a side and across; N/m of the spring to a finger
+const COLUMNS = 9, MIDDLE = 2 * COLUMNS ** 2, ROWS = MIDDLE + COLUMNS ** 2; // masses along a side; rows of sheet.h
+const HELD = 15, LIFT = 3 * POINTS ** 2 + 2; // N/m of the spring to a finger; number of the input gravity.z
 const STOPS = { young: [0.5, 1, 2], thickness: [2, 3, 4, 6], gravity: [0, 0.5, 1, 2], damping: [0, 1, 4, 12] };
 const LOADS = [0.25, 0.5, 1, 2, 4], SPAN = 6; // of g/E; seconds of the plot
 const by = id => document.getElementById(id);
@@ -14,9 +15,11 @@ const SHOWN = {
 let program = null, answers = {}, known = null, track = [], time = 0, left = 0, before = 0;
 let grabbed = null, looking = null, turn = -0.6, tilt = 0.5, frames = 0, spent = 0, wanted = "";
 
-// numbers of the program from an address on; of its sheet, by place as in sheet.h: time, step, gravity, u, v
+// numbers of the program from an address on; of its sheet, by place as in sheet.h: time, step, inputs, u, v
 const numbers = (address, count) => new Float64Array(program.memory.buffer, address, count);
 const ofSheet = (place, count) => numbers(program.SHEET.value + 8 * place, count);
+const vectors = number => ofSheet(3 + LIFT + 3 * ROWS * number, 3 * ROWS); // u or v of all rows
+const set = (number, value) => program.sheet_set(program.SHEET.value, number, value);
 
 async function load() {
   const name = wanted = `${by("scene").value}-${value("thickness")}.wasm`;
@@ -40,13 +43,13 @@ function apply() {
   const load = value("gravity") / value("young");
   const stored = answers[`${by("scene").value} ${value("thickness")}`];
   known = load === 0 ? 0 : stored ? stored[LOADS.indexOf(load)] : null;
-  if (program) ofSheet(2, 3)[2] = -GRAVITY * load;
+  if (program) set(LIFT, -GRAVITY * load);
 }
 
 function advance(seconds) {
-  const root = Math.sqrt(value("young")), step = ofSheet(1, 1)[0], masses = COLUMNS * COLUMNS * LAYERS;
+  const root = Math.sqrt(value("young")), step = ofSheet(1, 1)[0], v = vectors(1);
   left = Math.min(left + seconds * root, 40 * root * 1e-3);
-  const slower = Math.exp(-value("damping") / root * 4 * step), v = ofSheet(5 + 3 * masses, 3 * masses);
+  const slower = Math.exp(-value("damping") / root * 4 * step);
   for (; left > 0; left -= 4 * step, time += 4 * step / root) {
     if (grabbed) pull();
     program.sheet_step(program.SHEET.value, 4);
@@ -54,20 +57,13 @@ function advance(seconds) {
   }
 }
 
-function force(point, three) {
-  numbers(program.THREE.value, 3).set(three);
-  program.sheet_set_force(program.SHEET.value, point, program.THREE.value);
-}
+const force = (point, three) => three.forEach((f, e) => set(3 * point + e, f));
 function pull() { // a soft spring from the point to the finger, in the plane of the screen
   const [x, y] = project(place(grabbed.point)), [right, up] = axes();
   force(grabbed.point, right.map((r, e) => HELD * ((grabbed.x - x) * r + (y - grabbed.y) * up[e]) / scale()));
 }
-function moved(p) {
-  program.sheet_probe(program.SHEET.value, p, program.THREE.value);
-  return numbers(program.THREE.value, 3);
-}
 function place(p) {
-  const [x, y, z] = moved(p), cell = SIDE / (POINTS - 1);
+  const [x, y, z] = [0, 1, 2].map(e => program.sheet_get(program.SHEET.value, 3 * p + e)), cell = SIDE / (POINTS - 1);
   return [x + cell * (p % POINTS), y + cell * Math.floor(p / POINTS), z];
 }
 const scale = () => 0.66 * Math.min(by("sheet").clientWidth, 1.2 * by("sheet").clientHeight) / SIDE;
@@ -98,11 +94,8 @@ function line(g, points, colour) {
 }
 
 function draw() {
-  const [g] = canvas("sheet"), n = COLUMNS, count = 3 * n * n * LAYERS, at = [], cells = [];
-  const u = ofSheet(5, count), rest = numbers(program.SHEET_REST.value, count);
-  for (let i = 0; i < count; i += 3 * LAYERS) { // of a column its middle
-    at.push(project([0, 1, 2].map(e => 0.5 * (rest[i + e] + u[i + e] + rest[i + e + 3] + u[i + e + 3]))));
-  }
+  const [g] = canvas("sheet"), n = COLUMNS, u = vectors(0), rest = numbers(program.SHEET_REST.value, 3 * ROWS), at = [], cells = [];
+  for (let i = 3 * MIDDLE; i < 3 * ROWS; i += 3) at.push(project([0, 1, 2].map(e => rest[i + e] + u[i + e])));
   for (let k = 0; k + n + 1 < n * n; k++) {
     if (k % n < n - 1) cells.push([k, k + 1, k + n + 1, k + n].map(c => at[c]));
   }
@@ -149,7 +142,7 @@ function frame(now) {
   const began = performance.now();
   advance(Math.min(Math.max(now - before, 0), 40) / 1e3);
   before = now;
-  const corner = moved(LAST)[2];
+  const corner = place(LAST)[2];
   track.push([time, corner]);
   while (track[0][0] < time - SPAN) track.shift();
   draw(), plot(), say(corner);

@@ -77,10 +77,7 @@ def smallest(most: int) -> str:
     return "unsigned char" if most < 2**8 else "unsigned short" if most < 2**16 else "int"
 
 
-def identifiers(prefix: str, names: Iterable[str]) -> list[str]:
-    """Return identifiers in C for names, with a number where two would be equal."""
-    found: list[str] = []
-    for n, name in enumerate(names):
-        one = f"{prefix}_{re.sub(r'[^A-Za-z0-9]+', '_', name).strip('_').upper()}"
-        found.append(one if one not in found and not one.endswith("_") else f"{one}_N{n}")
-    return found
+def identifiers(names: Iterable[str]) -> list[str]:
+    """Return names of letters, digits and underscores, with their number where two would be equal."""
+    plain = [re.sub(r"[^A-Za-z0-9]+", "_", name) for name in names]
+    return [name if name not in plain[:n] else f"{name}_{n}" for n, name in enumerate(plain)]

@@ -75,7 +75,9 @@ def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
         for name, text in texts.items():
             Path(folder, name).write_text(text, encoding="utf-8")
         flags = ("-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-o", "out")
-        if subprocess.run([compiler, "sheet.c", "fmi3.c", *flags, "-lm"], cwd=folder, capture_output=True).returncode:
+        if subprocess.run(
+            [compiler, "sheet.c", "fmi3.c", *flags, "-lm"], cwd=folder, capture_output=True
+        ).returncode:
             return None
         return f"binaries/{machine}-{system[0]}/sheet{system[1]}", Path(folder, "out").read_bytes()
 

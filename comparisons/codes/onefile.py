@@ -7,6 +7,7 @@ and `scripts/patch.c` are added for rubber, balls and bars. Chains and branches 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from string import Template
@@ -68,25 +69,26 @@ def program(
     system.assembly.require_energy()
     limit, tables = lumped.step_limit(system, start.u), Tables(precision)
     steps = FEW if system.growing is not None else steps
-    step = float(tables.rounded(limit.advised))
-    for shorter in range(TRIES):
+    for share in SHORTER ** np.arange(TRIES):
+        step = float(tables.rounded(share * limit.advised))
         try:
             rows = samples(system, start, step, steps)
             break
         except lumped.StepFailed as error:
-            if shorter == TRIES - 1:
-                raise BadInput(f"--for c: the check of its steps ends early: {error}") from None
-            step = float(tables.rounded(SHORTER * step))
-    points, bodies = list(scene.probes), [*named(scene.supports), *scene.named_obstacles()]
-    scene, lattice = system.problem.scene, system.assembly.lattice
-    sources, movable = list(sources_of(scene)), (*scene.supports, *scene.obstacles)
+            message = str(error)
+    else:
+        raise BadInput(f"--for c: the check of its steps ends early: {message}")
+    scene, lattice, sources = system.problem.scene, system.assembly.lattice, [*sources_of(scene)]
+    bodies = [*named(scene.supports), *scene.named_obstacles()]
+    named_by = {"POINT": scene.probes, "BODY": bodies, "SOURCE": [source.name for source in sources]}
+    names = {kind: identifiers(of) for kind, of in named_by.items()}
     still = scene.gravity is not None and scene.gravity.history is None
-    weight = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
-    inputs = [Quantity(f"{plain(point)}.F{axis}", "N") for point in points for axis in "xyz"]
-    inputs += [Quantity(f"gravity.{axis}", "m/s2", g) for axis, g in zip("xyz", weight, strict=True)]
-    inputs += [Quantity(f"{plain(source.name)}.factor", "", 1.0) for source in sources]
-    outputs = [Quantity(f"{plain(point)}.u{axis}", "m") for point in points for axis in "xyz"]
-    outputs += [Quantity(f"{plain(body)}.R{axis}", "N") for body in bodies for axis in "xyz"]
+    gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
+    inputs = [Quantity(f"{point}.F{axis}", "N") for point in names["POINT"] for axis in "xyz"]
+    inputs += [Quantity(f"gravity.{e}", "m/s2", g) for e, g in zip("xyz", gravity, strict=True)]
+    inputs += [Quantity(f"{factor}.factor", "", 1.0) for factor in names["SOURCE"]]
+    outputs = [Quantity(f"{point}.u{axis}", "m") for point in names["POINT"] for axis in "xyz"]
+    outputs += [Quantity(f"{body}.R{axis}", "N") for body in names["BODY"] for axis in "xyz"]
     outputs += [Quantity(f"energy.{name}", "J") for name in ENERGIES]
     (nx, ny, layers), n = lattice.grid, lattice.mass_count
     size, middles = n + nx * ny, lattice.positions.reshape(-1, layers, 3).mean(axis=1)
@@ -95,24 +97,25 @@ def program(
     add_springs(tables, system)
     add_masses(tables, system)
     for name, order in (("PROBE", 3), ("NEAR", 1)):
-        shares = lumped.MidSurface(lattice, scene.probe_points(), order=order).shared(np.eye(len(points)), n)
+        shares = lumped.MidSurface(lattice, scene.probe_points(), order=order).shared(
+            np.eye(len(scene.probes)), n
+        )
         tables.add_sparse(name, np.pad(shares.T[:, ::layers] * layers, ((0, 0), (n, 0))))
-    add_loads(tables, system, calibration)
+    add_loads(tables, system, calibration, gravity)
     touching, blocks = add_contact(tables, system)
-    tables.add("MOTION", [tables.curve(one.motion, "displacement") for one in movable], "int")
+    motions = [body.motion for body in (*scene.supports, *scene.obstacles)]
+    tables.add("MOTION", [tables.curve(motion, "displacement") for motion in motions], "int")
     tables.add("SOURCE", [tables.curve(source.of.history, "factor") for source in sources], "int")
     grown = add_growth(tables, system)
     tables.add("KNOT", [*tables.knots, *np.zeros((2, 5))], "double")
     tables.add("FIRST", [*tables.starts, 0])
     tables.add("INPUT", [quantity.start for quantity in inputs])
     tables.add("START", start.u if start.u.any() else start.u[:1])
-    sizes = {"POINTS": len(points), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
+    sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
     sizes |= {"SOURCES": len(sources), "MASSES": n, "ROWS": size, "LAYERS": layers, "COLUMNS_X": nx}
     sizes |= {"COLUMNS_Y": ny, "AIR": size if scene.air else 0, "TOUCHING": touching, "GROWN": grown}
     numbers = [f"SHEET_{name} = {size}" for name, size in sizes.items()]
-    names = {"POINT": points, "BODY": bodies, "SOURCE": [source.name for source in sources]}
-    for group, of in names.items():
-        numbers += [f"{name} = {k}" for k, name in enumerate(identifiers(f"SHEET_{group}", of))]
+    numbers += [f"SHEET_{kind}_{name} = {k}" for kind, of in names.items() for k, name in enumerate(of)]
     rubber = system.assembly.any_strain
     texts = dict(
         title=re.sub(r"[^ -~]|\*/", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
@@ -121,12 +124,12 @@ def program(
         libm="sqrt" + rubber * ", exp, log", tables="\n".join(tables.lines),
         rubber=script("rubber.c") if rubber else "#define rubber(d, g, k, on) 0",
         patch=script("patch.c") if blocks else "#define patch(s, of) ((void)(of), (real)0)",
-        **{group: ", ".join(of) or "none" for group, of in names.items()},
+        **{kind: ", ".join(of) or "none" for kind, of in names.items()},
     )  # fmt: skip
-    names_of_files = {"sheet.h": "sheet.h", "sheet.c": "sheet.c", "README.md": "sheet.md"}
-    files = {name: Template(script(of)).substitute(texts) for name, of in names_of_files.items()}
-    lines = [",".join(["time", *(quantity.name for quantity in outputs)])]
-    lines += [",".join(map(repr, row)) for row in rows]
+    templates = {"sheet.h": "sheet.h", "sheet.c": "sheet.c", "README.md": "sheet.md"}
+    files = {name: Template(script(of)).substitute(texts) for name, of in templates.items()}
+    header = ["time", *(quantity.name for quantity in outputs)]
+    lines = [",".join(header), *(",".join(map(repr, row)) for row in rows)]
     files |= {"main.c": script("main.c"), "check.csv": "\n".join(lines) + "\n"}
     return Program(files, inputs, outputs, step)
 
@@ -147,7 +150,7 @@ def samples(system: System, start: State, step: float, steps: int) -> list[list[
         at = state.u, system.drive(state.time)
         forces = [*system.problem.constraints.reactions(exerted)[0].values()]
         forces += [item.exerted(at, state.v).sum(axis=0) for item in system.items]
-        row = [[state.time], probes.of(state.u).ravel(), *forces, [*energies.values()]]
+        row: list[Any] = [[state.time], probes.of(state.u).ravel(), *forces, [*energies.values()]]
         rows.append(np.concatenate(row).tolist())
     return rows
 
@@ -170,20 +173,15 @@ def add_springs(tables: Tables, system: System) -> None:
     corners, cells = [], []
     for family in families:  # layers, mid-surface, upright faces
         k, is_rubber = family.constants, family.constants.shape[1] == 13
-        upright, several = family is families[-1], family.nodes.shape[2] > 1
-        q = k[:, 3:4] * np.eye(7)[3] if upright else k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
+        q = k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
+        q = k[:, 3:4] * np.eye(7)[3] if family is families[-1] else q
         others = k[:, 4:13] if is_rubber else np.zeros((len(k), 9))
         cells.append(np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(k), tau), others]))
-        first = family.nodes[:, :, 0]
-        corners.append(middle_of(system, first) if several else first)
+        of = family.nodes[:, :, 0]
+        corners.append(middle_of(system, of) if family.nodes.shape[2] > 1 else of)
     tables.define(UPRIGHT=sum(map(len, cells[:-1])))
     tables.add("CELL", np.concatenate(corners), "entry")
     tables.add_distinct("CELL", np.concatenate(cells)[:, : 23 if system.assembly.any_strain else 14])
-
-
-def plain(name: str) -> str:
-    """Return a name of letters, digits and underscores."""
-    return re.sub(r"\W+", "_", name)
 
 
 def middle_of(system: System, masses: np.ndarray) -> np.ndarray:
@@ -197,10 +195,7 @@ def add_masses(tables: Tables, system: System) -> None:
     velocities to momenta; masses' damping, the supports that move them, and sums of the supports' forces."""
     import scipy.sparse as sp
 
-    constraints, (p, n) = (
-        system.problem.constraints,
-        (system.assembly.lattice.grid[2], len(system.lattice_mass)),
-    )
+    constraints, p, n = system.problem.constraints, system.assembly.lattice.grid[2], len(system.lattice_mass)
     both = []
     for act in (system.accelerate, system.momentum):
         along = [act(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
@@ -208,35 +203,33 @@ def add_masses(tables: Tables, system: System) -> None:
     tables.add_distinct("COLUMN", np.concatenate(both, axis=1))
     tables.define(RATED=bool(system.damping.rate.any()))
     tables.add("RATE", system.damping.rate)
-    owner, supports = np.zeros((n, 3), int), named(system.scene.supports)
-    for moving in (False, True):  # a corner goes with the support that moves
-        for number, (name, support) in enumerate(supports.items(), start=1):
-            masses, axes = constraints.holders[name]
-            for axis in axes if (support.motion is not None) is moving else ():
-                rows = masses.ravel()
-                firm = ~constraints.fixed[rows, axis] | (axis in tilt_axes(support))
-                own = firm if moving else owner[rows, axis] == 0
-                owner[rows[own], axis] = number
+    owner, supports = np.zeros((n, 3), int), enumerate(named(system.scene.supports).items(), start=1)
+    for number, (name, support) in sorted(supports, key=lambda one: one[1][1].motion is None):
+        masses, axes = constraints.holders[name]
+        for axis in axes:  # a corner goes with the support that moves
+            rows = masses.ravel()[owner[masses.ravel(), axis] == 0]
+            firm = ~constraints.fixed[rows, axis] | (axis in tilt_axes(support)) | (support.motion is None)
+            owner[rows[firm], axis] = number
     tables.add("OWNER", owner)
     rows, columns, values = constraints.summed
     rows = np.append(rows, np.full(3 * len(system.items), rows[-1]))  # none of obstacles
     tables.add_sparse("SUMMED", sp.csr_array((values, columns, rows), shape=(len(rows) - 1, owner.size)))
 
 
-def add_loads(tables: Tables, system: System, calibration: Calibration) -> None:
-    """Add weight; by histories dead loads, pressures and moments of edges; the air's drag."""
+def add_loads(tables: Tables, system: System, calibration: Calibration, gravity: Sequence[float]) -> None:
+    """Add weight, dead loads but that of an acceleration of gravity, pressures and moments, all by their
+    histories, and the air's drag."""
     import scipy.sparse as sp
 
     scene, lattice, drag = system.scene, system.assembly.lattice, system.damping.drag
     down = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -1.0)), loads=())
     weight = -lumped.build_problem(down, calibration).loads.parts[0].dead[:, 2]
     tables.add("WEIGHT", np.pad(weight, (0, len(weight) // lattice.grid[2])))
-    if scene.gravity is not None and scene.gravity.history is None:
-        scene = scene.replace(gravity=None)
-    parts = lumped.build_problem(scene, calibration).loads.parts
+    parts = system.problem.loads.parts
     histories = [one.history for one in (scene.gravity, *scene.loads) if one is not None and one.history]
     tables.add("LOAD", [tables.curve(one, "factor") for one in (None, *dict.fromkeys(histories))], "int")
-    tables.add_sparse("DEAD", [part.dead.ravel() for part in parts])
+    dead = [part.dead - (part is parts[0]) * np.outer(weight, gravity) for part in parts]
+    tables.add_sparse("DEAD", np.reshape(dead, (len(parts), -1)))
     tables.add_sparse("PRESSURE", [part.pressure for part in parts])
     tables.add_sparse("MOMENT", sp.block_diag([part.moments[None] for part in parts]))
     edges = np.concatenate([part.columns[:, :, 0] for part in parts])
@@ -270,11 +263,9 @@ def add_contact(tables: Tables, system: System) -> tuple[int, int]:
     tables.add("POINT_BODY", np.concatenate(bodies))
     tables.add("POINT_AT", middle_of(system, np.concatenate(columns)))
     tables.add_distinct("POINT", np.concatenate(rows))
-    radii = [0.0 if isinstance(o, Plane) else o.radius for o in obstacles]
-    of = [
-        [*o.position, *o.direction, radius, o.contact_damping, o.friction]
-        for o, radius in zip(obstacles, radii, strict=True)
-    ]
+    radii = [0.0 if isinstance(body, Plane) else body.radius for body in obstacles]
+    rest = zip(obstacles, radii, strict=True)
+    of = [[*o.position, *o.direction, radius, o.contact_damping, o.friction] for o, radius in rest]
     points, count = sum(map(len, bodies)), sum(map(len, blocks))
     tables.add("OBSTACLE", np.reshape(of, (-1, 9)))
     tables.add("BLOCK", np.concatenate(blocks), "int")

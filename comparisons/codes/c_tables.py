@@ -61,13 +61,10 @@ class Tables:
         """Return the number of the curve of a table's first component, −1 without a table."""
         if table is None:
             return -1
-        of, t, first = table.over_time(key), np.array(table.time), len(self.starts) - 1
-        components = (np.atleast_2d(np.transpose(each(t))) for each in (of.at, of.slope, of.bend))
-        for value, slope, bend in zip(*components, strict=True):
-            h = np.diff(t)
-            cubic = (np.diff(value) - h * (slope[:-1] + h * bend[:-1] / 2)) / h**3
-            pieces = np.stack([t, value, slope, bend / 2, np.append(cubic, 0.0)], axis=1)
-            self.knots += [[*pieces[0, :2], 0.0, 0.0, 0.0], *pieces.tolist()]
+        first, times = len(self.starts) - 1, np.array([table.time[0], *table.time])
+        pieces = table.over_time(key).pieces  # before, between and after the samples
+        for of in np.reshape(pieces, (*pieces.shape[:2], -1)).T:
+            self.knots += np.pad(np.column_stack([times, of]), ((0, 0), (0, 4 - of.shape[1]))).tolist()
             self.starts.append(len(self.knots))
         return first
 

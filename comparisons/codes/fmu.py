@@ -50,8 +50,10 @@ MODEL = """<fmiModelDescription fmiVersion="3.0" modelName={name} instantiationT
 def description(name: str, of: Program) -> str:
     """Return the unit's modelDescription.xml, with variables numbered as in `scripts/fmi3.c`."""
     kinds = ['"time" unit="s" causality="independent" variability="continuous"']
-    kinds += [f'"{x.name}" unit="{x.unit}" causality="input" start="{x.start!r}"' for x in of.inputs]
-    kinds += [f'"{x.name}" unit="{x.unit}" causality="output" initial="calculated"' for x in of.outputs]
+    for variable, (unit, start) in of.inputs.items():
+        kinds.append(f'"{variable}" unit="{unit}" causality="input" start="{start!r}"')
+    for variable, unit in of.outputs.items():
+        kinds.append(f'"{variable}" unit="{unit}" causality="output" initial="calculated"')
     rows = [f'<Float64 valueReference="{n}" name={kind}/>' for n, kind in enumerate(kinds)]
     numbers = range(1 + len(of.inputs), len(rows))
     entries = [f'<{kind} valueReference="{n}"/>' for kind in ("Output", "InitialUnknown") for n in numbers]

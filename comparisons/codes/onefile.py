@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from string import Template
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -33,25 +33,16 @@ if TYPE_CHECKING:
 
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
-ENERGIES = ("kinetic", "elastic", "potential")
 LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
 
 
-class Quantity(NamedTuple):
-    """An input or output of the program; start: of an input."""
-
-    name: str
-    unit: str
-    start: float = 0.0
-
-
-@dataclass(frozen=True)
-class Program:
-    """texts: the files by name; inputs, outputs: by their numbers in C; step: [s]."""
+class Program(NamedTuple):
+    """texts: the files by name; inputs: unit and start of each, by their numbers in C; outputs: units; step:
+    [s]."""
 
     texts: dict[str, str]
-    inputs: list[Quantity]
-    outputs: list[Quantity]
+    inputs: dict[str, tuple[str, float]]
+    outputs: dict[str, str]
     step: float
 
 
@@ -84,12 +75,12 @@ def program(
     names = {kind: identifiers(of) for kind, of in named_by.items()}
     still = scene.gravity is not None and scene.gravity.history is None
     gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
-    inputs = [Quantity(f"{point}.F{axis}", "N") for point in names["POINT"] for axis in "xyz"]
-    inputs += [Quantity(f"gravity.{e}", "m/s2", g) for e, g in zip("xyz", gravity, strict=True)]
-    inputs += [Quantity(f"{factor}.factor", "", 1.0) for factor in names["SOURCE"]]
-    outputs = [Quantity(f"{point}.u{axis}", "m") for point in names["POINT"] for axis in "xyz"]
-    outputs += [Quantity(f"{body}.R{axis}", "N") for body in names["BODY"] for axis in "xyz"]
-    outputs += [Quantity(f"energy.{name}", "J") for name in ENERGIES]
+    inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
+    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", gravity, strict=True)}
+    inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
+    outputs = {f"{point}.u{axis}": "m" for point in names["POINT"] for axis in "xyz"}
+    outputs |= {f"{body}.R{axis}": "N" for body in names["BODY"] for axis in "xyz"}
+    outputs |= {f"energy.{name}": "J" for name in ("kinetic", "elastic", "potential")}
     (nx, ny, layers), n = lattice.grid, lattice.mass_count
     size, middles = n + nx * ny, lattice.positions.reshape(-1, layers, 3).mean(axis=1)
     tables.lines.append(f"typedef {smallest(size)} entry;")
@@ -109,7 +100,7 @@ def program(
     grown = add_growth(tables, system)
     tables.add("KNOT", [*tables.knots, *np.zeros((2, 5))], "double")
     tables.add("FIRST", [*tables.starts, 0])
-    tables.add("INPUT", [quantity.start for quantity in inputs])
+    tables.add("INPUT", [start for _, start in inputs.values()])
     tables.add("START", start.u if start.u.any() else start.u[:1])
     sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
     sizes |= {"SOURCES": len(sources), "MASSES": n, "ROWS": size, "LAYERS": layers, "COLUMNS_X": nx}
@@ -128,8 +119,7 @@ def program(
     )  # fmt: skip
     templates = {"sheet.h": "sheet.h", "sheet.c": "sheet.c", "README.md": "sheet.md"}
     files = {name: Template(script(of)).substitute(texts) for name, of in templates.items()}
-    header = ["time", *(quantity.name for quantity in outputs)]
-    lines = [",".join(header), *(",".join(map(repr, row)) for row in rows)]
+    lines = [",".join(["time", *outputs]), *(",".join(map(repr, row)) for row in rows)]
     files |= {"main.c": script("main.c"), "check.csv": "\n".join(lines) + "\n"}
     return Program(files, inputs, outputs, step)
 

@@ -110,7 +110,7 @@ def off(sheet, steps=2000):
     for _ in known[1:]:
         sheet.call("step", steps // (len(known) - 1))
         found.append(sheet.row())
-    units = [quantity.unit for quantity in sheet.found.outputs]
+    units = list(sheet.found.outputs.values())
     ends = units.index("N"), units.index("J")
     gap, own = (np.split(np.abs(one), ends, axis=1) for one in (found - known[:, 1:], known[:, 1:]))
     return [one.max() for one in gap], [one.max() for one in own]

@@ -50,10 +50,9 @@ MODEL = """<fmiModelDescription fmiVersion="3.0" modelName={name} instantiationT
 def description(name: str, of: Program) -> str:
     """Return the unit's modelDescription.xml, with variables numbered as in `scripts/fmi3.c`."""
     kinds = ['"time" unit="s" causality="independent" variability="continuous"']
-    for variable, (unit, start) in of.inputs.items():
-        kinds.append(f'"{variable}" unit="{unit}" causality="input" start="{start!r}"')
-    for variable, unit in of.outputs.items():
-        kinds.append(f'"{variable}" unit="{unit}" causality="output" initial="calculated"')
+    kinds += [f'"{x}" unit="{unit}" causality="input" start="{at!r}"' for x, (unit, at) in of.inputs.items()]
+    output = 'causality="output" initial="calculated"'
+    kinds += [f'"{x}" unit="{unit}" {output}' for x, unit in of.outputs.items()]
     rows = [f'<Float64 valueReference="{n}" name={kind}/>' for n, kind in enumerate(kinds)]
     numbers = range(1 + len(of.inputs), len(rows))
     entries = [f'<{kind} valueReference="{n}"/>' for kind in ("Output", "InitialUnknown") for n in numbers]
@@ -76,10 +75,9 @@ def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
     with tempfile.TemporaryDirectory() as folder:
         for name, text in texts.items():
             Path(folder, name).write_text(text, encoding="utf-8")
-        flags = ("-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-o", "out")
-        if subprocess.run(
-            [compiler, "sheet.c", "fmi3.c", *flags, "-lm"], cwd=folder, capture_output=True
-        ).returncode:
+        flags = ["-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-o", "out", "-lm"]
+        command = [compiler, "sheet.c", "fmi3.c", *flags]
+        if subprocess.run(command, cwd=folder, capture_output=True).returncode:
             return None
         return f"binaries/{machine}-{system[0]}/sheet{system[1]}", Path(folder, "out").read_bytes()
 

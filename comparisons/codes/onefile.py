@@ -162,9 +162,8 @@ def add_springs(tables: Tables, system: System) -> None:
     tables.add_distinct("LINK", np.concatenate([np.column_stack(row) for row in rows]))
     corners, cells = [], []
     for family in families:  # layers, mid-surface, upright faces
-        k, is_rubber = family.constants, family.constants.shape[1] == 13
-        q = k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
-        q = k[:, 3:4] * np.eye(7)[3] if family is families[-1] else q
+        k, is_rubber, upright = family.constants, family.constants.shape[1] == 13, family is families[-1]
+        q = k[:, 3:4] * np.eye(7)[3] if upright else k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
         others = k[:, 4:13] if is_rubber else np.zeros((len(k), 9))
         cells.append(np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(k), tau), others]))
         of = family.nodes[:, :, 0]

@@ -71,10 +71,10 @@ def program(
         raise BadInput(f"--for c: the check of its steps ends early: {message}")
     scene, lattice, sources = system.problem.scene, system.assembly.lattice, [*sources_of(scene)]
     bodies = [*named(scene.supports), *scene.named_obstacles()]
-    named_by = {"POINT": scene.probes, "BODY": bodies, "SOURCE": [source.name for source in sources]}
-    names = {kind: identifiers(of) for kind, of in named_by.items()}
-    still = scene.gravity is not None and scene.gravity.history is None
-    gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
+    labels = {"POINT": scene.probes, "BODY": bodies, "SOURCE": [source.name for source in sources]}
+    names = {kind: identifiers(of) for kind, of in labels.items()}
+    steady = scene.gravity is not None and scene.gravity.history is None
+    gravity = scene.gravity.acceleration if scene.gravity is not None and steady else (0.0, 0.0, 0.0)
     inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
     inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", gravity, strict=True)}
     inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
@@ -88,9 +88,8 @@ def program(
     add_springs(tables, system)
     add_masses(tables, system)
     for name, order in (("PROBE", 3), ("NEAR", 1)):
-        shares = lumped.MidSurface(lattice, scene.probe_points(), order=order).shared(
-            np.eye(len(scene.probes)), n
-        )
+        surface = lumped.MidSurface(lattice, scene.probe_points(), order=order)
+        shares = surface.shared(np.eye(len(scene.probes)), n)
         tables.add_sparse(name, np.pad(shares.T[:, ::layers] * layers, ((0, 0), (n, 0))))
     add_loads(tables, system, calibration, gravity)
     touching, blocks = add_contact(tables, system)
@@ -166,8 +165,8 @@ def add_springs(tables: Tables, system: System) -> None:
         q = k[:, 3:4] * np.eye(7)[3] if upright else k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
         others = k[:, 4:13] if is_rubber else np.zeros((len(k), 9))
         cells.append(np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(k), tau), others]))
-        of = family.nodes[:, :, 0]
-        corners.append(middle_of(system, of) if family.nodes.shape[2] > 1 else of)
+        masses, several = family.nodes[:, :, 0], family.nodes.shape[2] > 1
+        corners.append(middle_of(system, masses) if several else masses)
     tables.define(UPRIGHT=sum(map(len, cells[:-1])))
     tables.add("CELL", np.concatenate(corners), "entry")
     tables.add_distinct("CELL", np.concatenate(cells)[:, : 23 if system.assembly.any_strain else 14])
@@ -185,11 +184,11 @@ def add_masses(tables: Tables, system: System) -> None:
     import scipy.sparse as sp
 
     constraints, p, n = system.problem.constraints, system.assembly.lattice.grid[2], len(system.lattice_mass)
-    both = []
-    for act in (system.accelerate, system.momentum):
-        along = [act(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
-        both.append(np.stack(along, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
-    tables.add_distinct("COLUMN", np.concatenate(both, axis=1))
+    matrices = []
+    for apply in (system.accelerate, system.momentum):
+        columns = [apply(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
+        matrices.append(np.stack(columns, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
+    tables.add_distinct("COLUMN", np.concatenate(matrices, axis=1))
     tables.define(RATED=bool(system.damping.rate.any()))
     tables.add("RATE", system.damping.rate)
     owner, supports = np.zeros((n, 3), int), enumerate(named(system.scene.supports).items(), start=1)
@@ -200,9 +199,9 @@ def add_masses(tables: Tables, system: System) -> None:
             firm = ~constraints.fixed[rows, axis] | (axis in tilt_axes(support)) | (support.motion is None)
             owner[rows[firm], axis] = number
     tables.add("OWNER", owner)
-    rows, columns, values = constraints.summed
-    rows = np.append(rows, np.full(3 * len(system.items), rows[-1]))  # none of obstacles
-    tables.add_sparse("SUMMED", sp.csr_array((values, columns, rows), shape=(len(rows) - 1, owner.size)))
+    starts, held, values = constraints.summed
+    starts = np.append(starts, np.full(3 * len(system.items), starts[-1]))  # none of obstacles
+    tables.add_sparse("SUMMED", sp.csr_array((values, held, starts), shape=(len(starts) - 1, owner.size)))
 
 
 def add_loads(tables: Tables, system: System, calibration: Calibration, gravity: Sequence[float]) -> None:
@@ -211,11 +210,11 @@ def add_loads(tables: Tables, system: System, calibration: Calibration, gravity:
     import scipy.sparse as sp
 
     scene, lattice, drag = system.scene, system.assembly.lattice, system.damping.drag
-    down = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -1.0)), loads=())
-    weight = -lumped.build_problem(down, calibration).loads.parts[0].dead[:, 2]
+    unit = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -1.0)), loads=())
+    weight = -lumped.build_problem(unit, calibration).loads.parts[0].dead[:, 2]
     tables.add("WEIGHT", np.pad(weight, (0, len(weight) // lattice.grid[2])))
     parts = system.problem.loads.parts
-    histories = [one.history for one in (scene.gravity, *scene.loads) if one is not None and one.history]
+    histories = [one.history for one in (scene.gravity, *scene.loads) if one and one.history]
     tables.add("LOAD", [tables.curve(one, "factor") for one in (None, *dict.fromkeys(histories))], "int")
     dead = [part.dead - (part is parts[0]) * np.outer(weight, gravity) for part in parts]
     tables.add_sparse("DEAD", np.reshape(dead, (len(parts), -1)))
@@ -253,15 +252,15 @@ def add_contact(tables: Tables, system: System) -> tuple[int, int]:
     tables.add("POINT_AT", middle_of(system, np.concatenate(columns)))
     tables.add_distinct("POINT", np.concatenate(rows))
     radii = [0.0 if isinstance(body, Plane) else body.radius for body in obstacles]
-    rest = zip(obstacles, radii, strict=True)
-    of = [[*o.position, *o.direction, radius, o.contact_damping, o.friction] for o, radius in rest]
+    pairs = zip(obstacles, radii, strict=True)
+    shapes = [[*o.position, *o.direction, radius, o.contact_damping, o.friction] for o, radius in pairs]
     points, count = sum(map(len, bodies)), sum(map(len, blocks))
-    tables.add("OBSTACLE", np.reshape(of, (-1, 9)))
+    tables.add("OBSTACLE", np.reshape(shapes, (-1, 9)))
     tables.add("BLOCK", np.concatenate(blocks), "int")
     if count:
-        (x, of_x), (y, of_y) = (np.polynomial.legendre.leggauss(count) for count in (4, 16))
-        tables.add("ALONG", np.stack([x, of_x], axis=1))
-        tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * of_y], axis=1))
+        (x, wx), (y, wy) = (np.polynomial.legendre.leggauss(order) for order in (4, 16))
+        tables.add("ALONG", np.stack([x, wx], axis=1))
+        tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * wy], axis=1))
     return points, count
 
 
@@ -274,15 +273,15 @@ def add_growth(tables: Tables, system: System) -> int:
 
     def measured(*factors: float) -> np.ndarray:
         links, *cells = state.of(np.array(factors)).springs[:4]
-        own = [np.zeros((3, len(one))) if one.natural is None else one.natural[1:] for one in cells]
-        return np.concatenate([links.natural, np.zeros(dampers), *(each.T.ravel() for each in own)])
+        parts = [np.zeros((3, len(of))) if of.natural is None else of.natural[1:] for of in cells]
+        return np.concatenate([links.natural, np.zeros(dampers), *(part.T.ravel() for part in parts)])
 
     terms: list[np.ndarray] = []
-    unit = np.eye(0 if state is None else len(state.factors()))
-    for s, one in enumerate(unit):
-        up, down = measured(*one), measured(*-one)
-        products = [measured(*(one + other)) - up - measured(*other) for other in unit[:s]]
-        terms += [0.5 * (up - down), *products, 0.5 * (up + down)]
+    units = np.eye(0 if state is None else len(state.factors()))
+    for number, unit in enumerate(units):
+        plus, minus = measured(*unit), measured(*-unit)
+        products = [measured(*(unit + other)) - plus - measured(*other) for other in units[:number]]
+        terms += [0.5 * (plus - minus), *products, 0.5 * (plus + minus)]
     tables.add("GROWTH", terms or np.empty((0, 1)))
     return len(terms[0]) if terms else 0
 

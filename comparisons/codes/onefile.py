@@ -205,8 +205,8 @@ def add_masses(tables: Tables, system: System) -> None:
 
 
 def add_loads(tables: Tables, system: System, calibration: Calibration, gravity: Sequence[float]) -> None:
-    """Add weight, dead loads but that of an acceleration of gravity, pressures and moments, all by their
-    histories, and the air's drag."""
+    """Add weights per gravity [m/s²], dead loads without the weight by a gravity, pressures and moments, by
+    their histories, and the air's drag."""
     import scipy.sparse as sp
 
     scene, lattice, drag = system.scene, system.assembly.lattice, system.damping.drag

@@ -12,34 +12,32 @@ from sheetbench.scenes.objects.tables import OverTime
 
 PRECISIONS: dict[str, tuple[str, Any]] = {"double": ("double", np.float64), "single": ("float", np.float32)}
 BRACES = str.maketrans("[]", "{}", " ")
+WHOLE = {1: "unsigned char", 2: "unsigned short", 4: "int"}  # types by their bytes
 
 
 class Tables:
-    """Tables and enumerators in C, in the order in which they are added. lines: of source; knots, starts: of
-    curves, {from, coefficients}, and the first of each."""
+    """Tables in C. lines: of source; sizes: lengths of tables, by the plural of their names, and other whole
+    numbers; knots, starts: of curves, {from, coefficients}, and the first of each."""
 
     def __init__(self, precision: str):
         self.real, self.rounded = PRECISIONS[precision]
         self.lines: list[str] = []
+        self.sizes: dict[str, int] = {}
         self.knots: list[list[float]] = []
         self.starts = [0]
 
     def add(self, name: str, values: Any, kind: str = "", storage: str = "static ") -> None:
-        """Add a table, of the smallest type of whole numbers unless given one, and NAMES, its length."""
+        """Add a table, of the smallest type of whole numbers unless given one."""
         values = np.asarray(values)
-        self.define(**{f"{name}S": len(values)})
+        self.sizes[f"{name}S"] = len(values)
         if not values.size:
             values = np.zeros([max(1, n) for n in values.shape], values.dtype)
         if values.dtype.kind == "f":
             values, kind = values if kind == "double" else values.astype(self.rounded), kind or "real"
         else:
-            values, kind = values.astype(int), kind or smallest(values.max())
+            values, kind = values.astype(int), kind or WHOLE[np.min_scalar_type(values.max()).itemsize]
         shape = "".join(f"[{n}]" for n in values.shape)
         self.lines.append(f"{storage}const {kind} {name}{shape} = {str(values.tolist()).translate(BRACES)};")
-
-    def define(self, **numbers: int) -> None:
-        """Add enumerators."""
-        self.lines += [f"enum {{ {name} = {int(value)} }};" for name, value in numbers.items()]
 
     def add_sparse(self, name: str, rows: Any) -> None:
         """Add a sparse matrix: starts of its rows, columns and values of entries."""
@@ -67,11 +65,6 @@ class Tables:
             self.knots += np.pad(np.column_stack([times, of]), ((0, 0), (0, 4 - of.shape[1]))).tolist()
             self.starts.append(len(self.knots))
         return first
-
-
-def smallest(most: int) -> str:
-    """Return the smallest type of whole numbers up to the most."""
-    return "unsigned char" if most < 2**8 else "unsigned short" if most < 2**16 else "int"
 
 
 def identifiers(names: Iterable[str]) -> list[str]:

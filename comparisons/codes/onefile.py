@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 import lumped
-from comparisons.codes.c_tables import PRECISIONS, Tables, identifiers, smallest
+from comparisons.codes.c_tables import PRECISIONS, WHOLE, Tables, identifiers
 from comparisons.codes.files import script
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
@@ -83,7 +83,7 @@ def program(
     outputs |= {f"energy.{name}": "J" for name in ("kinetic", "elastic", "potential")}
     (nx, ny, layers), n = lattice.grid, lattice.mass_count
     size, middles = n + nx * ny, lattice.positions.reshape(-1, layers, 3).mean(axis=1)
-    tables.lines.append(f"typedef {smallest(size)} entry;")
+    tables.lines.append(f"typedef {WHOLE[np.min_scalar_type(size).itemsize]} entry;")
     tables.add("SHEET_REST", np.concatenate([lattice.positions, middles]), storage="")
     add_springs(tables, system)
     add_masses(tables, system)
@@ -92,7 +92,7 @@ def program(
         shares = surface.shared(np.eye(len(scene.probes)), n)
         tables.add_sparse(name, np.pad(shares.T[:, ::layers] * layers, ((0, 0), (n, 0))))
     add_loads(tables, system, calibration, gravity)
-    touching, blocks = add_contact(tables, system)
+    add_contact(tables, system)
     motions = [body.motion for body in (*scene.supports, *scene.obstacles)]
     tables.add("MOTION", [tables.curve(motion, "displacement") for motion in motions], "int")
     tables.add("SOURCE", [tables.curve(source.of.history, "factor") for source in sources], "int")
@@ -103,7 +103,8 @@ def program(
     tables.add("START", start.u if start.u.any() else start.u[:1])
     sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
     sizes |= {"SOURCES": len(sources), "MASSES": n, "ROWS": size, "LAYERS": layers, "COLUMNS_X": nx}
-    sizes |= {"COLUMNS_Y": ny, "AIR": size if scene.air else 0, "TOUCHING": touching, "GROWN": grown}
+    sizes |= {"COLUMNS_Y": ny, "AIR": size if scene.air else 0, "GROWN": grown}
+    sizes["TOUCHING"] = tables.sizes["CONTACTS"]
     numbers = [f"SHEET_{name} = {size}" for name, size in sizes.items()]
     numbers += [f"SHEET_{kind}_{name} = {k}" for kind, of in names.items() for k, name in enumerate(of)]
     rubber = system.assembly.any_strain
@@ -112,8 +113,9 @@ def program(
         version=version(), real=tables.real, numbers=",\n  ".join(numbers), step=step, steps=steps,
         largest=f"{limit.step:.4g}", safety=f"{step / limit.step:.3g}", slip=SLIP_SPEED**2,
         libm="sqrt" + rubber * ", exp, log", tables="\n".join(tables.lines),
+        sizes=", ".join(f"{name} = {int(size)}" for name, size in tables.sizes.items()),
         rubber=script("rubber.c") if rubber else "#define rubber(d, g, k, on) 0",
-        patch=script("patch.c") if blocks else "#define patch(s, of) ((void)(of), (real)0)",
+        patch=script("patch.c") if tables.sizes["BLOCKS"] else "#define patch(s, of) ((void)(of), (real)0)",
         **{kind: ", ".join(of) or "none" for kind, of in names.items()},
     )  # fmt: skip
     templates = {"sheet.h": "sheet.h", "sheet.c": "sheet.c", "README.md": "sheet.md"}
@@ -156,7 +158,7 @@ def add_springs(tables: Tables, system: System) -> None:
         extra: Any = system.damping.dampers[0]
         rows.append([extra.offset, extra.rest_length, 0.0 * extra.stiffness, extra.stiffness])
         nodes.append(extra.nodes)
-    tables.define(DAMPED=tau > 0.0 or len(nodes) > 1, RUBBER=system.assembly.any_strain)
+    tables.sizes |= {"DAMPED": tau > 0.0 or len(nodes) > 1, "RUBBER": system.assembly.any_strain}
     tables.add("LINK", np.concatenate(nodes))
     tables.add_distinct("LINK", np.concatenate([np.column_stack(row) for row in rows]))
     corners, cells = [], []
@@ -167,7 +169,7 @@ def add_springs(tables: Tables, system: System) -> None:
         cells.append(np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(k), tau), others]))
         masses, several = family.nodes[:, :, 0], family.nodes.shape[2] > 1
         corners.append(middle_of(system, masses) if several else masses)
-    tables.define(UPRIGHT=sum(map(len, cells[:-1])))
+    tables.sizes["UPRIGHT"] = sum(map(len, cells[:-1]))
     tables.add("CELL", np.concatenate(corners), "entry")
     tables.add_distinct("CELL", np.concatenate(cells)[:, : 23 if system.assembly.any_strain else 14])
 
@@ -189,7 +191,7 @@ def add_masses(tables: Tables, system: System) -> None:
         columns = [apply(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
         matrices.append(np.stack(columns, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
     tables.add_distinct("COLUMN", np.concatenate(matrices, axis=1))
-    tables.define(RATED=bool(system.damping.rate.any()))
+    tables.sizes["RATED"] = bool(system.damping.rate.any())
     tables.add("RATE", system.damping.rate)
     owner, supports = np.zeros((n, 3), int), enumerate(named(system.scene.supports).items(), start=1)
     for number, (name, support) in sorted(supports, key=lambda one: one[1][1].motion is None):
@@ -227,9 +229,9 @@ def add_loads(tables: Tables, system: System, calibration: Calibration, gravity:
     tables.add("DRAG", drag.coefficient * drag.weights / lattice.grid[2] if scene.air else [0.0])
 
 
-def add_contact(tables: Tables, system: System) -> tuple[int, int]:
+def add_contact(tables: Tables, system: System) -> None:
     """Add obstacles and the points of the mid-surface that may touch them, on planes columns of masses, else
-    nine of each block of a cell. Return the numbers of points and blocks."""
+    nine of each block of a cell."""
     lattice, obstacles = system.assembly.lattice, system.scene.obstacles
     bodies, blocks = [np.empty(0, int)], [np.empty((0, 9), int)]
     columns, rows = [np.empty((0, 4), int)], [np.empty((0, 7))]
@@ -248,20 +250,18 @@ def add_contact(tables: Tables, system: System) -> tuple[int, int]:
         rows.append(np.column_stack([np.tile(shares, (cells, 1)), *map(np.ravel, values)]))
         bodies.append(np.full(len(rows[-1]), number))
         columns.append(np.repeat(contact.nodes[:, :: lattice.grid[2]], len(contact.basis), axis=0))
-    tables.add("POINT_BODY", np.concatenate(bodies))
+    tables.add("CONTACT", np.concatenate(bodies))
     tables.add("POINT_AT", middle_of(system, np.concatenate(columns)))
     tables.add_distinct("POINT", np.concatenate(rows))
     radii = [0.0 if isinstance(body, Plane) else body.radius for body in obstacles]
     pairs = zip(obstacles, radii, strict=True)
     shapes = [[*o.position, *o.direction, radius, o.contact_damping, o.friction] for o, radius in pairs]
-    points, count = sum(map(len, bodies)), sum(map(len, blocks))
     tables.add("OBSTACLE", np.reshape(shapes, (-1, 9)))
     tables.add("BLOCK", np.concatenate(blocks), "int")
-    if count:
+    if tables.sizes["BLOCKS"]:
         (x, wx), (y, wy) = (np.polynomial.legendre.leggauss(order) for order in (4, 16))
         tables.add("ALONG", np.stack([x, wx], axis=1))
         tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * wy], axis=1))
-    return points, count
 
 
 def add_growth(tables: Tables, system: System) -> int:

@@ -8,6 +8,7 @@ enum { P = SHEET_LAYERS, N = SHEET_MASSES, ROWS = SHEET_ROWS, LOADED = SHEET_SUP
 #define MASSES(i) for (int i = 0; i < N; i++)
 #define PART ((real)1 / (real)P)
 #define X(i, e) (SHEET_REST[i][e] + s->u[i][e])
+enum { $sizes };
 $tables
 static real root(real x) { return (real)sqrt((double)x); }
 static real dot(const real *x, const real *y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
@@ -109,13 +110,13 @@ static real springs(sheet *s, field velocity, int elastic) {
 }
 $patch
 static void push(sheet *s, int m, const real on[3]) { /* a point of the sheet, with an obstacle's force */
-  EACH(e) s->pressed[POINT_BODY[m] + LOADED][e] += on[e];
+  EACH(e) s->pressed[CONTACT[m] + LOADED][e] += on[e];
   for (int c = 0; c < 4; c++) EACH(e) s->f[POINT_AT[m][c]][e] -= POINT_ROW[POINT_OF[m]][c] * on[e];
 }
 static real contact(sheet *s) { /* adds to f what obstacles press with; returns the energy */
   real energy = 0;
   for (int m = 0; m < SHEET_TOUCHING; m++) {
-    const int o = POINT_BODY[m];
+    const int o = CONTACT[m];
     const real *k = POINT_ROW[POINT_OF[m]], *body = OBSTACLE[o]; /* shares of columns, offset, stiffness, rounded depth */
     real *to = s->touch[m], y[3]; /* -d depth/dx, depth, load, load as friction has it */
     const int is_round = body[6] > 0; /* of planes the offset is from where the point rests */
@@ -124,8 +125,7 @@ static real contact(sheet *s) { /* adds to f what obstacles press with; returns 
       for (int c = 0; c < 4; c++) y[e] += k[c] * ((is_round ? SHEET_REST[POINT_AT[m][c]][e] : 0) + s->u[POINT_AT[m][c]][e]);
     }
     const real along = dot(y, body + 3), reach = k[4] + body[6];
-    EACH(e) y[e] -= is_round ? along * body[3 + e] : 0;
-    EACH(e) to[e] = is_round ? y[e] / reach : body[3 + e];
+    EACH(e) y[e] -= is_round ? along * body[3 + e] : 0, to[e] = is_round ? y[e] / reach : body[3 + e];
     to[3] = is_round ? (reach - dot(y, y) / reach) / 2 : k[4] - along, to[4] = to[5] = 0;
     if (is_round || to[3] <= 0) continue;
     const real curved = to[3] < k[6] ? to[3] : k[6], sure = to[3] > k[6] ? to[3] - k[6] : 0;
@@ -147,7 +147,7 @@ static void resist(sheet *s, field velocity, real sign) { /* adds to f, so many 
     EACH(e) s->f[i][e] += sign * DRAG[i] * (speed < 0 ? -speed : speed) * speed * area[e];
   }
   for (int m = 0; m < SHEET_TOUCHING; m++) {
-    const int o = POINT_BODY[m];
+    const int o = CONTACT[m];
     const real *to = s->touch[m], *k = POINT_ROW[POINT_OF[m]], size = root(dot(to, to)), tau = OBSTACLE[o][7];
     if (to[5] == 0) continue;
     real y[3], on[3], slip = (real)$slip;

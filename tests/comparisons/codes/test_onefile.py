@@ -14,6 +14,7 @@ from commands import python, run
 from exported import BLOWN, MOMENT, PULL, SCENES
 
 import lumped
+from comparisons.codes.c_tables import identifiers
 from comparisons.codes.onefile import program
 from sheetbench import scenes
 from sheetbench.errors import BadInput
@@ -67,7 +68,7 @@ LIKE = (
     "gent",
     "mooney-rivlin",
 )
-# in single numbers: friction within 1 mm/s; a small difference of energies; reactions of a bent clamp
+# in single numbers: rounding that impacts with friction amplify; a small difference of energies; reactions of a bent clamp
 ROUGH = ("lifted", "bimetal", "graded")
 ALL = OWN | {name: SCENES[name] for name in LIKE}
 
@@ -275,6 +276,14 @@ def test_what_the_program_has_not_is_refused_by_name(words):
     scene, settings = REFUSED[words]
     with pytest.raises(BadInput, match=words):
         program(scene, calibrated(scene, **settings))
+
+
+def test_names_that_are_alike_in_c_are_numbered():
+    names = ["a b", "tip", "a_b"]
+    probes = {name: (0.1, 0.02 * k) for k, name in enumerate(names)}
+    assert identifiers(names) == ["a_b", "tip", "a_b_2"]
+    found = program(STRIP.replace(probes=probes), calibrated(STRIP, (5, 3)), "double", 20)
+    assert list(found.outputs)[6] == "a_b_2.ux" and "SHEET_POINT_a_b_2 = 2" in found.texts["sheet.h"]
 
 
 def test_the_verb_writes_it(tmp_path, capsys):

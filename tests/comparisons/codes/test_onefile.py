@@ -68,7 +68,7 @@ LIKE = (
     "gent",
     "mooney-rivlin",
 )
-# in single numbers: rounding that impacts with friction amplify; a small difference of energies; reactions of a bent clamp
+# in single numbers: impacts with friction; a small difference of energies; reactions of a bent clamp
 ROUGH = ("lifted", "bimetal", "graded")
 ALL = OWN | {name: SCENES[name] for name in LIKE}
 

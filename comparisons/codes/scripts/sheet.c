@@ -1,13 +1,12 @@
 /* $title: velocity Verlet of a spring lattice. Written by sheetbench $version; see sheet.h. */
 #include "sheet.h"
 typedef sheet_real real;
-typedef real (*field)[3];
+typedef double (*field)[3];
 double sqrt(double x);
 enum { P = SHEET_LAYERS, N = SHEET_MASSES, ROWS = SHEET_ROWS, LOADED = SHEET_SUPPORTS };
 #define EACH(e) for (int e = 0; e < 3; e++)
 #define MASSES(i) for (int i = 0; i < N; i++)
-#define PART ((real)1 / (real)P)
-#define X(i, e) (SHEET_REST[i][e] + s->u[i][e])
+#define FROM(i, j, e) (real)(SHEET_REST[j][e] - SHEET_REST[i][e] + (s->u[j][e] - s->u[i][e]))
 enum { $sizes };
 $tables
 static real root(real x) { return (real)sqrt((double)x); }
@@ -16,22 +15,22 @@ static void cross(const real *x, const real *y, real *z) {
   EACH(e) z[e] = x[(e + 1) % 3] * y[(e + 2) % 3] - x[(e + 2) % 3] * y[(e + 1) % 3];
 }
 /* a curve at a time, or its derivative: cubics {from, coefficients}, constant before and after */
-static real curve(int k, double t, int order) {
+static double curve(int k, double t, int order) {
   const int last = FIRST[k + 1] - 1;
   int n = FIRST[k];
   const double late = (KNOT[last][0] - KNOT[n][0]) * 1e-9;
   while (n < last && KNOT[n + 1][0] <= t + late) n++;
   const double *c = KNOT[n], x = t - c[0];
-  if (order == 2) return (real)(2 * c[3] + 6 * x * c[4]);
-  return (real)(order ? c[2] + x * (2 * c[3] + 3 * x * c[4]) : c[1] + x * (c[2] + x * (c[3] + x * c[4])));
+  if (order == 2) return 2 * c[3] + 6 * x * c[4];
+  return order ? c[2] + x * (2 * c[3] + 3 * x * c[4]) : c[1] + x * (c[2] + x * (c[3] + x * c[4]));
 }
 static void average(field x) { /* the middles of columns */
   for (int i = N; i < ROWS; i++) EACH(e) x[i][e] = 0;
-  MASSES(i) EACH(e) x[N + i / P][e] += x[i][e] * PART;
+  MASSES(i) EACH(e) x[N + i / P][e] += x[i][e] / P;
 }
 static void press(const sheet *s, const entry *c, real p, field f) { /* on a bilinear cell: p (c + d x e) / 12 a corner */
   real d[3], t[3], g[3], both[3], one[3], two[3];
-  EACH(e) d[e] = X(c[2], e) - X(c[0], e), t[e] = X(c[3], e) - X(c[1], e), g[e] = X(c[1], e) - X(c[0], e);
+  EACH(e) d[e] = FROM(c[0], c[2], e), t[e] = FROM(c[1], c[3], e), g[e] = FROM(c[0], c[1], e);
   cross(d, t, both), cross(g, t, one), cross(g, d, two);
   EACH(e) {
     const real on[4] = {both[e] + one[e], both[e] + two[e], 2 * both[e] - one[e], 2 * both[e] - two[e]};
@@ -41,18 +40,18 @@ static void press(const sheet *s, const entry *c, real p, field f) { /* on a bil
 $rubber
 static void sides(const entry *c, field x, real a[3], real b[3], real q[3]) { /* of a cell, as x has them, and its warp */
   EACH(e) {
-    const real k = x[c[0]][e], l = x[c[1]][e], m = x[c[2]][e], o = x[c[3]][e];
-    a[e] = (m - k - (o - l)) / 2, b[e] = (m - k + (o - l)) / 2, q[e] = k - l + (m - o);
+    const double k = x[c[0]][e], l = x[c[1]][e], m = x[c[2]][e], o = x[c[3]][e];
+    a[e] = (real)(m - k - (o - l)) / 2, b[e] = (real)(m - k + (o - l)) / 2, q[e] = (real)(k - l + (m - o));
   }
 }
 /* adds forces of springs to f, where elastic, and of dampers at a velocity; returns the energy */
-static real springs(sheet *s, field velocity, int elastic) {
-  real energy = 0;
+static double springs(sheet *s, field velocity, int elastic) {
+  double energy = 0;
   for (int m = 0; m < LINKS; m++) {
     const int i = LINK[m][0], j = LINK[m][1];
     const real *k = LINK_ROW[LINK_OF[m]]; /* offset, length, stiffness, damping */
     real d[3], r[3], v[3], change = 0, pull = 0, length = k[3];
-    EACH(e) d[e] = s->u[j][e] - s->u[i][e], r[e] = k[e] + d[e], change += (k[e] + r[e]) * d[e];
+    EACH(e) d[e] = (real)(s->u[j][e] - s->u[i][e]), r[e] = k[e] + d[e], change += (k[e] + r[e]) * d[e];
     const real square = dot(r, r);
     if (SHEET_GROWN) change -= s->grown[m], length = root(length * length + s->grown[m]);
     if (elastic) {
@@ -60,7 +59,7 @@ static real springs(sheet *s, field velocity, int elastic) {
       pull = k[4] * longer / now, energy += k[4] * longer * longer / 2;
     }
     if (DAMPED) {
-      EACH(e) v[e] = velocity[j][e] - velocity[i][e];
+      EACH(e) v[e] = (real)(velocity[j][e] - velocity[i][e]);
       pull += k[5] * dot(r, v) / square;
     }
     EACH(e) s->f[i][e] -= pull * r[e], s->f[j][e] += pull * r[e];
@@ -113,20 +112,21 @@ static void push(sheet *s, int m, const real on[3]) { /* a point of the sheet, w
   EACH(e) s->pressed[CONTACT[m] + LOADED][e] += on[e];
   for (int c = 0; c < 4; c++) EACH(e) s->f[POINT_AT[m][c]][e] -= POINT_ROW[POINT_OF[m]][c] * on[e];
 }
-static real contact(sheet *s) { /* adds to f what obstacles press with; returns the energy */
-  real energy = 0;
+static double contact(sheet *s) { /* adds to f what obstacles press with; returns the energy */
+  double energy = 0;
   for (int m = 0; m < SHEET_TOUCHING; m++) {
     const int o = CONTACT[m];
     const real *k = POINT_ROW[POINT_OF[m]], *body = OBSTACLE[o]; /* shares of columns, offset, stiffness, rounded depth */
-    real *to = s->touch[m], y[3]; /* -d depth/dx, depth, load, load as friction has it */
+    real *to = s->touch[m]; /* -d depth/dx, depth, load, load as friction has it */
     const int is_round = body[6] > 0; /* of planes the offset is from where the point rests */
+    double y[3], along = 0, square = 0, reach = (double)k[4] + body[6];
     EACH(e) {
       y[e] = (is_round ? -body[e] : 0) - s->path[o + LOADED][0][e];
       for (int c = 0; c < 4; c++) y[e] += k[c] * ((is_round ? SHEET_REST[POINT_AT[m][c]][e] : 0) + s->u[POINT_AT[m][c]][e]);
     }
-    const real along = dot(y, body + 3), reach = k[4] + body[6];
-    EACH(e) y[e] -= is_round ? along * body[3 + e] : 0, to[e] = is_round ? y[e] / reach : body[3 + e];
-    to[3] = is_round ? (reach - dot(y, y) / reach) / 2 : k[4] - along, to[4] = to[5] = 0;
+    EACH(e) along += y[e] * body[3 + e];
+    EACH(e) y[e] -= is_round ? along * body[3 + e] : 0, square += y[e] * y[e], to[e] = is_round ? (real)(y[e] / reach) : body[3 + e];
+    to[3] = (real)(is_round ? (reach - square / reach) / 2 : k[4] - along), to[4] = to[5] = 0;
     if (is_round || to[3] <= 0) continue;
     const real curved = to[3] < k[6] ? to[3] : k[6], sure = to[3] > k[6] ? to[3] - k[6] : 0;
     to[4] = to[5] = k[5] * (curved * curved / (2 * k[6]) + sure);
@@ -141,9 +141,11 @@ static real contact(sheet *s) { /* adds to f what obstacles press with; returns 
 }
 static void resist(sheet *s, field velocity, real sign) { /* adds to f, so many times, what resists a velocity beside springs */
   average(velocity);
-  if (RATED) MASSES(i) EACH(e) s->f[i][e] += sign * RATE[i] * velocity[i][e];
+  if (RATED) MASSES(i) EACH(e) s->f[i][e] += (double)(sign * RATE[i]) * velocity[i][e];
   if (SHEET_AIR) MASSES(i) {
-    const real *area = s->area[N + i / P], size = root(dot(area, area)), speed = size > 0 ? dot(velocity[i], area) / size : 0;
+    real area[3], v[3];
+    EACH(e) area[e] = (real)s->area[N + i / P][e], v[e] = (real)velocity[i][e];
+    const real size = root(dot(area, area)), speed = size > 0 ? dot(v, area) / size : 0;
     EACH(e) s->f[i][e] += sign * DRAG[i] * (speed < 0 ? -speed : speed) * speed * area[e];
   }
   for (int m = 0; m < SHEET_TOUCHING; m++) {
@@ -151,8 +153,8 @@ static void resist(sheet *s, field velocity, real sign) { /* adds to f, so many 
     const real *to = s->touch[m], *k = POINT_ROW[POINT_OF[m]], size = root(dot(to, to)), tau = OBSTACLE[o][7];
     if (to[5] == 0) continue;
     real y[3], on[3], slip = (real)$slip;
-    EACH(e) y[e] = -s->path[o + LOADED][1][e];
-    for (int c = 0; c < 4; c++) EACH(e) y[e] += k[c] * velocity[POINT_AT[m][c]][e];
+    EACH(e) y[e] = -(real)s->path[o + LOADED][1][e];
+    for (int c = 0; c < 4; c++) EACH(e) y[e] += k[c] * (real)velocity[POINT_AT[m][c]][e];
     const real leaving = dot(y, to) / size, along = to[5] * (tau * leaving < 1 ? tau * leaving : 1);
     EACH(e) y[e] -= leaving * to[e] / size, slip += y[e] * y[e];
     EACH(e) on[e] = -sign * (along * to[e] / size + OBSTACLE[o][8] * to[5] / root(slip) * y[e]);
@@ -166,16 +168,16 @@ static void forces(sheet *s) { /* of all that acts, inwards, at the velocity w *
   for (int p = 0; p < SHEET_POINTS; p++)
     for (int n = NEAR[p]; n < NEAR[p + 1]; n++) EACH(e) s->f[NEAR_AT[n]][e] -= NEAR_SHARE[n] * s->input[3 * p + e];
   for (int p = 0; p < LOADS; p++) { /* those of a history, first those without one */
-    const real factor = LOAD[p] < 0 ? 1 : curve(LOAD[p], s->time, 0);
+    const real factor = LOAD[p] < 0 ? 1 : (real)curve(LOAD[p], s->time, 0);
     for (int n = DEAD[p]; n < DEAD[p + 1]; n++) s->f[DEAD_AT[n] / 3][DEAD_AT[n] % 3] -= DEAD_SHARE[n] * factor;
     if (p == 0) s->fallen = 0;
-    if (p == 0) for (int i = 0; i < ROWS; i++) s->fallen += dot(s->f[i], s->u[i]);
+    if (p == 0) for (int i = 0; i < ROWS; i++) EACH(e) s->fallen += s->f[i][e] * s->u[i][e];
     for (int n = PRESSURE[p]; n < PRESSURE[p + 1]; n++) press(s, MIDDLE[PRESSURE_AT[n]], -PRESSURE_SHARE[n] * factor, s->f);
     for (int n = MOMENT[p]; n < MOMENT[p + 1]; n++) { /* of an edge, about the chord of the columns beside */
       const entry *c = EDGE[MOMENT_AT[n]];
       const int low = c[0], high = low + P - 1;
       real t[3], d[3], on[3];
-      EACH(e) t[e] = X(c[2], e) - X(c[1], e), d[e] = X(high, e) - X(low, e);
+      EACH(e) t[e] = FROM(c[1], c[2], e), d[e] = FROM(low, high, e);
       cross(t, d, on);
       const real scale = MOMENT_SHARE[n] * factor / (root(dot(t, t)) * dot(d, d));
       EACH(e) s->f[high][e] -= scale * on[e], s->f[low][e] += scale * on[e];
@@ -185,14 +187,14 @@ static void forces(sheet *s) { /* of all that acts, inwards, at the velocity w *
   for (int m = 0; SHEET_AIR && m < MIDDLES; m++) press(s, MIDDLE[m], COVER[m], s->area);
   s->stored = contact(s), resist(s, s->w, 1), s->stored += springs(s, s->w, 1);
 }
-static real across(field x, int i, int e, int from) { /* a row of a column's inverse, from P on of its matrix, of masses */
+static double across(field x, int i, int e, int from) { /* a row of a column's inverse, from P on of its matrix, of masses */
   const real *row = COLUMN_ROW[COLUMN_OF[i / P * 3 + e]] + (from + i % P) * P;
-  real sum = 0;
+  double sum = 0;
   for (int q = 0; q < P; q++) sum += row[q] * x[i - i % P + q][e];
   return sum;
 }
 static void accelerate(sheet *s, real half) { /* and v by half a step of it */
-  MASSES(i) EACH(e) s->f[i][e] += s->f[N + i / P][e] * PART;
+  MASSES(i) EACH(e) s->f[i][e] += s->f[N + i / P][e] / P;
   for (int i = N; i < ROWS; i++) EACH(e) s->f[i][e] = 0;
   MASSES(i) EACH(e) s->a[i][e] = -across(s->f, i, e, 0), s->v[i][e] += half * s->a[i][e];
 }
@@ -200,7 +202,7 @@ static void follow(sheet *s) { /* natural states: what springs measure at rest, 
   const real *factor = s->input + SHEET_FACTORS;
   int new = 0;
   for (int k = 0; k < SHEET_SOURCES; k++) {
-    if (!s->set[k] && SOURCE[k] >= 0) s->input[SHEET_FACTORS + k] = curve(SOURCE[k], s->time, 0);
+    if (!s->set[k] && SOURCE[k] >= 0) s->input[SHEET_FACTORS + k] = (real)curve(SOURCE[k], s->time, 0);
     new |= factor[k] < s->followed[k] || factor[k] > s->followed[k], s->followed[k] = factor[k];
   }
   for (int n = 0; new && n < SHEET_GROWN; n++) s->grown[n] = 0;
@@ -212,9 +214,9 @@ static void move(sheet *s, real h) { /* supports and obstacles, a step on, with 
   for (int b = 0; b < SHEET_BODIES; b++) EACH(e) {
     if (!s->moved[b] && MOTION[b] < 0) continue;
     field path = s->path[b], goal = s->goal[b]; /* place and its derivatives */
-    const real place = path[0][e] + h * path[1][e], rate = path[1][e];
+    const double place = path[0][e] + h * path[1][e], rate = path[1][e];
     for (int n = 0; n < 3; n++) path[n][e] = s->moved[b] ? (n < 2 ? goal[n][e] : 0) : curve(MOTION[b] + e, s->time, n);
-    if (s->moved[b]) path[0][e] += (real)(s->time - s->since[b]) * goal[1][e];
+    if (s->moved[b]) path[0][e] += (s->time - s->since[b]) * goal[1][e];
     MASSES(i) if (OWNER[i][e] == b + 1) s->u[i][e] += path[0][e] - place, s->v[i][e] += path[1][e] - rate;
   }
 }
@@ -253,21 +255,23 @@ void sheet_move_support(sheet *s, int body, const real displacement[3], const re
   s->moved[body] = 1, s->since[body] = s->time + (double)s->step;
 }
 void sheet_probe(const sheet *s, int point, real displacement[3]) {
-  EACH(e) displacement[e] = 0;
-  for (int n = PROBE[point]; n < PROBE[point + 1]; n++) EACH(e) displacement[e] += PROBE_SHARE[n] * s->u[PROBE_AT[n]][e];
+  double sum[3] = {0, 0, 0};
+  for (int n = PROBE[point]; n < PROBE[point + 1]; n++) EACH(e) sum[e] += PROBE_SHARE[n] * s->u[PROBE_AT[n]][e];
+  EACH(e) displacement[e] = (real)sum[e];
 }
 void sheet_reaction(sheet *s, int body, real force[3]) {
   MASSES(i) EACH(e) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->path[OWNER[i][e] - 1][2][e] : 0);
   EACH(e) {
-    force[e] = s->pressed[body][e];
+    double sum = s->pressed[body][e];
     for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
-      force[e] += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
+      sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
+    force[e] = (real)sum;
   }
 }
 real sheet_energy(sheet *s, int kind) {
-  real sum = kind == SHEET_ELASTIC ? s->stored : kind == SHEET_POTENTIAL ? s->fallen : 0;
+  double sum = kind == SHEET_ELASTIC ? s->stored : kind == SHEET_POTENTIAL ? s->fallen : 0;
   if (kind == SHEET_KINETIC) MASSES(i) EACH(e) sum += s->v[i][e] * across(s->v, i, e, P) / 2;
-  return sum;
+  return (real)sum;
 }
 real sheet_get(sheet *s, int output) {
   real three[3];

@@ -17,12 +17,11 @@ enum { SHEET_KINETIC, SHEET_ELASTIC, SHEET_POTENTIAL }; /* potential: of gravity
 typedef struct {
   double time;                                /* s */
   sheet_real step, input[SHEET_INPUTS];       /* s, may be shorter than SHEET_STEP; gravity may be written to */
-  sheet_real u[SHEET_ROWS][3], v[SHEET_ROWS][3], a[SHEET_MASSES][3]; /* m, m/s, m/s^2 */
-  sheet_real f[SHEET_ROWS][3], w[SHEET_ROWS][3], stored, fallen; /* the rest is the steps' own */
-  sheet_real area[SHEET_AIR + 1][3], touch[SHEET_TOUCHING + 1][6], grown[SHEET_GROWN + 1];
-  sheet_real path[SHEET_BODIES + 1][3][3], goal[SHEET_BODIES + 1][2][3], pressed[SHEET_BODIES + 1][3];
+  double u[SHEET_ROWS][3], v[SHEET_ROWS][3], a[SHEET_MASSES][3]; /* m, m/s, m/s^2; in double numbers always */
+  double f[SHEET_ROWS][3], w[SHEET_ROWS][3], area[SHEET_AIR + 1][3], stored, fallen; /* the rest is the steps' own */
+  sheet_real touch[SHEET_TOUCHING + 1][6], grown[SHEET_GROWN + 1];
+  double path[SHEET_BODIES + 1][3][3], goal[SHEET_BODIES + 1][2][3], since[SHEET_BODIES + 1], pressed[SHEET_BODIES + 1][3];
   sheet_real followed[SHEET_SOURCES + 1];
-  double since[SHEET_BODIES + 1];
   unsigned char moved[SHEET_BODIES + 1], set[SHEET_SOURCES + 1];
 } sheet;
 extern const sheet_real SHEET_REST[SHEET_ROWS][3]; /* m: places at rest, columns along x first */

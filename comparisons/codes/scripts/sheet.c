@@ -26,7 +26,7 @@ static double curve(int k, double t, int order) {
 }
 static void average(field x) { /* the middles of columns */
   for (int i = N; i < ROWS; i++) EACH(e) x[i][e] = 0;
-  MASSES(i) EACH(e) x[N + i / P][e] += x[i][e] / P;
+  MASSES(i) EACH(e) x[N + i / P][e] += x[i][e] / (double)P;
 }
 static void press(const sheet *s, const entry *c, real p, field f) { /* on a bilinear cell: p (c + d x e) / 12 a corner */
   real d[3], t[3], g[3], both[3], one[3], two[3];
@@ -194,7 +194,7 @@ static double across(field x, int i, int e, int from) { /* a row of a column's i
   return sum;
 }
 static void accelerate(sheet *s, real half) { /* and v by half a step of it */
-  MASSES(i) EACH(e) s->f[i][e] += s->f[N + i / P][e] / P;
+  MASSES(i) EACH(e) s->f[i][e] += s->f[N + i / P][e] / (double)P;
   for (int i = N; i < ROWS; i++) EACH(e) s->f[i][e] = 0;
   MASSES(i) EACH(e) s->a[i][e] = -across(s->f, i, e, 0), s->v[i][e] += half * s->a[i][e];
 }

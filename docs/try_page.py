@@ -64,7 +64,7 @@ def build(folder: Path) -> str:
         return "no compiler: pip install ziglang, then make docs"
     for name, thickness in product(SCENES, THICKNESSES):
         scene, out = scene_of(name, thickness), folder.resolve() / f"{name}-{1e3 * thickness:g}.wasm"
-        springs = resolve(scene, Lattice(9), "springs", own=False).calibrated([scene])
+        springs = resolve(scene, Lattice(9), "springs", scene_springs=False).calibrated([scene])
         texts = program(scene, springs, steps=20).texts
         with tempfile.TemporaryDirectory() as place:
             Path(place, "sheet.h").write_text(texts["sheet.h"], encoding="utf-8")

@@ -24,7 +24,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import reduce
+from functools import cache, reduce
 from itertools import product
 from math import inf, isfinite, pi
 from typing import Any, NamedTuple
@@ -125,11 +125,17 @@ def names_of(scene: SceneFields) -> list[str]:
     most = max(*map(len, lists), len(scene.material.relaxation), *joints, 1)
     ends = [f"{key}_{edge}" for key in ("curvature", "tilt") for edge in EDGES]
     names = []
-    for name in (*(name for pattern in PLACES for name in _expanded(pattern, most)), *ends):
+    for name in (*_numbered(most), *ends):
         with suppress(BadInput, TypeError):
             if isfinite(parameter(scene, name).value):  # a plane's radius is not
                 names.append(name)
     return names
+
+
+@cache
+def _numbered(most: int) -> tuple[str, ...]:
+    """Return the names that PLACES stands for, with numbers up to `most`."""
+    return tuple(name for pattern in PLACES for name in _expanded(pattern, most))
 
 
 def _expanded(pattern: str, most: int) -> Iterator[str]:
@@ -173,12 +179,20 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
     return paths
 
 
-def _places(scene: SceneFields, name: str) -> list[Path]:
-    """Return the paths that a name may stand for. Raises BadInput if it stands for none."""
+@cache
+def _place(name: str) -> Path | None:
+    """Return the path of PLACES to a parameter of any scene, None if there is none."""
     for pattern, place in PLACES.items():
         if at := re.fullmatch(pattern, name):
             parts = at.expand(place).split(".")
-            return [tuple(int(p) - 1 if p.isdecimal() else COMPONENTS.get(p, p) for p in parts)]
+            return tuple(int(p) - 1 if p.isdecimal() else COMPONENTS.get(p, p) for p in parts)
+    return None
+
+
+def _places(scene: SceneFields, name: str) -> list[Path]:
+    """Return the paths that a name may stand for. Raises BadInput if it stands for none."""
+    if path := _place(name):
+        return [path]
     key, _, edge = name.partition("_")
     holders = {"tilt": Clamped, "curvature": Curved | Chain}
     if key not in holders:

@@ -44,15 +44,15 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put, short_name
-from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.meaning.parameters import FIBRES, OF_LAWS, names_of, parameter, put, short_name
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
-CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # sources of the springs
+CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES, *OF_LAWS, "patch", "layer", "temperature")
+CALIBRATED_FROM += ("natural.e", "natural.p")  # beginnings of names of what springs follow from
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
-PATCH, OBSTACLE = "patch", "obstacle"  # beginnings of names
+PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
 WEIGHTS = "gravity", "load", "mass"
 FIELD = "cells."
 FORCES = "forces"
@@ -318,24 +318,26 @@ def both_sides(
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
     for end in ends:
         if of_springs:
-            springs = calibration.with_constant(name, end)
-            sides.append((build_problem(scene, springs, same=problem), springs))
+            side, springs = scene, calibration.with_constant(name, end)
         else:
-            side, springs = of_changed(scene, calibration, name, end, calibrate)
-            sides.append((build_problem(side, springs), springs))
+            side, springs = of_changed(scene, calibration, name, end, calibrate, name.startswith(EDGES))
+        sides.append((build_problem(side, springs, same=problem), springs))
     return sides, ends[1] - ends[0]
 
 
 def of_changed(
-    scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
+    scene: Scene,
+    calibration: Calibration,
+    name: str,
+    value: float,
+    calibrate: Calibrate | None,
+    checked: bool = True,
 ) -> tuple[Scene, Calibration]:
-    """Return the scene with another value, and its springs, found anew where their sources have changed."""
-    if name.startswith(OBSTACLE):  # unchecked: a sheet that begins on one is within it by so little
-        fields = SceneFields.model_construct(**dict(scene))
-        changed = scene.model_copy(update=dict(put(fields, name, value)))
-    else:
-        changed = put(scene, name, value)
-    if name not in CALIBRATED_FROM and not name.startswith((PATCH, "natural.e")):
+    """Return the scene with another value (`put`), and its springs, found anew where their sources have
+    changed."""
+    begins_on = name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
+    changed = put(scene, name, value, checked and not begins_on)
+    if not name.startswith(CALIBRATED_FROM):
         return changed, calibration
     if calibrate is not None:
         return changed, calibrate(changed)

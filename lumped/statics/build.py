@@ -19,6 +19,9 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import natural_of_cells
 from sheetbench.scenes.objects.orthotropy import FIBRES
 
+OF_SPRINGS = ("sheet", "material", "patches", "layers", "natural", "temperature", "actuators")
+OF_PARTS = (*OF_SPRINGS, "supports")
+
 
 def build_problem(
     scene: Scene,
@@ -37,7 +40,8 @@ def build_problem(
     weights : {"tributary", "full"}, default "tributary"
         Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
     same : Problem, optional
-        Problem of this scene with other springs, whose supports and loads are reused on an equal lattice.
+        Problem of a scene with the same plan, grid and edges that twist, whose parts are taken where they are
+        the same.
 
     Returns
     -------
@@ -55,15 +59,20 @@ def build_problem(
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
-    couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges())
-    lines = assembly.lattice.lines
-    if (state := natural_of_cells(stretched(scene, assembly), *(line.at for line in lines))) is not None:
-        assembly.grow(state)
-    on_lattice = same is not None and same.assembly.lattice is assembly.lattice
-    if same is not None and on_lattice and couple is None and assembly.natural is None:
-        return Problem(scene, assembly, same.constraints, same.loads, same.items)
-    constraints = constrain(scene, assembly.lattice, assembly.coupling)
+    alike = {key for key in OF_PARTS if same is not None and getattr(scene, key) == getattr(same.scene, key)}
+    if same is not None and alike >= {*OF_SPRINGS} and same.assembly.calibration is calibration:
+        assembly = same.assembly
+    else:
+        couple = partial(Coupling, scene) if scene.actuators else None
+        plan = None if same is None else same.assembly.lattice
+        assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges(), plan)
+        x, y = (line.at for line in assembly.lattice.lines)
+        if (state := natural_of_cells(stretched(scene, assembly), x, y)) is not None:
+            assembly.grow(state)
+    if same is not None and "supports" in alike and assembly.coupling is same.assembly.coupling:
+        constraints = same.constraints.on(assembly.lattice)
+    else:
+        constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")

@@ -196,6 +196,25 @@ def test_gradients_of_twelve_scenes_are_those_of_differences(name):
         assert found[key] == pytest.approx(slope(key, value, 1.0, h), rel=2e-6), key
 
 
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [("laminate", "layer1.young"), ("laminate", "temperature.change"), ("gent", "shear"), ("natural", "natural.exx")],
+)
+def test_springs_follow_the_number_of_the_scene(name, key):
+    """Against scenes that are solved anew, with springs of their own."""
+    scene = TWELVE[name][0]()
+    at, value = [[0.5 * length for length in scene.sheet.lengths]], parameter(scene, key).value
+    found = forward_at(scene, at, key)
+    h = 1e-3 * abs(value)
+    ends = [lumped.solve(put(scene, key, value + n * h)).displacement(at) for n in (1, -1, 2, -2)]
+    expected = (8.0 * (ends[0] - ends[1]) - (ends[2] - ends[3])) / (12.0 * h)
+    assert_close(found, expected, within=1e-5)
+
+
+def forward_at(scene, at, key):
+    return lumped.Differentiable(scene).at_points(np.array(at), [key])[1][key]
+
+
 def forward_of(of, changes):
     """At the scene's own values."""
     of.solve({})

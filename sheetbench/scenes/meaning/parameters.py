@@ -24,7 +24,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import cache, reduce
+from functools import cache
 from itertools import product
 from math import inf, isfinite, pi
 from typing import Any, NamedTuple
@@ -149,14 +149,18 @@ def _expanded(pattern: str, most: int) -> Iterator[str]:
     return map("".join, product(*choices))
 
 
-def put(scene: AScene, name: str, value: float) -> AScene:
-    """Return the scene with a parameter at another value. Raises BadInput if the scene has no parameter of
+def put(scene: AScene, name: str, value: float, checked: bool = True) -> AScene:
+    """Return the scene with a parameter at another value. checked: whether the objects of the scene are
+    checked together, which a small change does not need. Raises BadInput if the scene has no parameter of
     this name, and SceneError if the value is impossible."""
     paths = _paths(scene, name)
     try:
         if name == "thickness":
-            return _with_thickness(scene, value / scene.sheet.thickness)
-        return reduce(lambda changed, path: _replaced(changed, path, value), paths, scene)
+            return _with(scene, _thickness(scene, value / scene.sheet.thickness), checked)
+        for path in paths:
+            part = str(path[0])
+            scene = _with(scene, {part: _replaced(getattr(scene, part), path[1:], value)}, checked)
+        return scene
     except SceneError as error:
         raise SceneError(f"{name} = {value:g}: {error}") from None
 
@@ -231,10 +235,14 @@ def _replaced(of: Any, path: Path, value: Any) -> Any:
     return of.replace(**{part: _replaced(getattr(of, part), inner, value)})
 
 
-def _with_thickness(scene: AScene, factor: float) -> AScene:
-    """Return the scene with the thickness of its sheet, tapers and layers times a factor."""
+def _with(scene: AScene, parts: dict[str, Any], checked: bool) -> AScene:
+    return scene.replace(**parts) if checked else scene.model_copy(update=parts)
+
+
+def _thickness(scene: SceneFields, factor: float) -> dict[str, Any]:
+    """Return the scene's sheet and layers with thicknesses times a factor, tapers included."""
     sheet = scene.sheet
     given = sheet.given(("taper_x", "taper_y"))
     tapers = {key: tuple(factor * h for h in ends) for key, ends in given.items()}
     layers = tuple(layer.replace(thickness=factor * layer.thickness) for layer in scene.layers)
-    return scene.replace(sheet=sheet.replace(thickness=factor * sheet.thickness, **tapers), layers=layers)
+    return {"sheet": sheet.replace(thickness=factor * sheet.thickness, **tapers), "layers": layers}

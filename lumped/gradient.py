@@ -53,7 +53,6 @@ STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of p
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
 PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
-WEIGHTS = "gravity", "load", "mass"
 FIELD = "cells."
 FORCES = "forces"
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
@@ -76,7 +75,6 @@ class Plain:
         self.problem = build_problem(scene, calibration)
         self.cells = CellFields(scene, calibration, self.problem.assembly)
         self._sides: dict[str, Sides] = {}
-        self._weights: dict[str, np.ndarray | None] = {}
 
     @classmethod
     def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Plain:
@@ -96,15 +94,6 @@ class Plain:
         if name not in self._sides:
             self._sides[name] = both_sides(self.calibration, self.problem, name, self.calibrate)
         return self._sides[name]
-
-    def weight(self, name: str) -> np.ndarray | None:
-        """Return the derivative (n, 3) of dead loads by a parameter of theirs alone, None of another one."""
-        if name not in self._weights:
-            low, high = (side.loads for side, _ in self.sides(name)[0])
-            alone = name.startswith(WEIGHTS) and not (low.follow or high.follow)
-            rate = (high.last_dead - low.last_dead) / self.sides(name)[1]
-            self._weights[name] = rate if alone else None
-        return self._weights[name]
 
     def scaled_by(self, name: str) -> bool:
         """Return whether a parameter is E or ρ of all cells in proportion, and of nothing else."""
@@ -257,8 +246,6 @@ class Gradient(Mapping[str, Any]):
         if of.base.scaled_by(name) and field not in of.values:
             value = getattr(of.plain.scene.material, name)
             return float(np.sum(self[field] * of.field(field)) / value)
-        if not of.values and (weight := of.base.weight(name)) is not None:
-            return float(np.sum(self.by_forces * weight))
         with one_blas_thread():
             rows, moved = of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))

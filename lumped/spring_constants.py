@@ -132,7 +132,9 @@ class Springs:
         """Increase of the constants from each layer to the next above, as springs of a layer."""
         given = {name: keys for name, keys in UPWARD.items() if self.of.keys() & {*keys}}
         increase = {name: [self.along(key, 0) for key in keys] for name, keys in given.items()}
-        of: dict[str, Parts] = {name: tuple(np.broadcast_arrays(*arrays)) for name, arrays in increase.items()}
+        of: dict[str, Parts] = {
+            name: tuple(np.broadcast_arrays(*arrays)) for name, arrays in increase.items()
+        }
         return Springs(of, self.layer_distance)
 
     @cached_property
@@ -264,7 +266,9 @@ def rank_one(stiffness: Any, *strain: Any) -> np.ndarray:
     weights = np.zeros((*np.broadcast_shapes(*map(np.shape, strain), np.shape(stiffness)), 3))
     for number, of in enumerate(strain):
         weights[..., number] = of
-    return np.asarray(stiffness)[..., None] * weights[..., [0, 1, 2, 0, 0, 1]] * weights[..., [0, 1, 2, 1, 2, 2]]
+    return (
+        np.asarray(stiffness)[..., None] * weights[..., [0, 1, 2, 0, 0, 1]] * weights[..., [0, 1, 2, 1, 2, 2]]
+    )
 
 
 def along_edge(axis: int, stretch: Any) -> tuple[Any, Any, float]:

@@ -198,7 +198,12 @@ def test_gradients_of_twelve_scenes_are_those_of_differences(name):
 
 @pytest.mark.parametrize(
     ("name", "key"),
-    [("laminate", "layer1.young"), ("laminate", "temperature.change"), ("gent", "shear"), ("natural", "natural.exx")],
+    [
+        ("laminate", "layer1.young"),
+        ("laminate", "temperature.change"),
+        ("gent", "shear"),
+        ("natural", "natural.exx"),
+    ],
 )
 def test_springs_follow_the_number_of_the_scene(name, key):
     """Against scenes that are solved anew, with springs of their own."""

@@ -42,10 +42,11 @@ class Assembly:
         twisting: frozenset[str] = frozenset(),
         plan: Lattice | None = None,
     ):
+        grid, distance, per_area = calibration.grid, calibration.layer_distance, calibration.per_area
         if plan is None:
-            own = calibration.grading, calibration.per_area
-            plan = build(sheet, calibration.grid, calibration.layer_distance, weights, twisting, *own)
-        self.lattice: Lattice = plan.at_distance(calibration.layer_distance)
+            self.lattice = build(sheet, grid, distance, weights, twisting, calibration.grading, per_area)
+        else:
+            self.lattice = plan.at_distance(distance, per_area)
         self.calibration = calibration
         # Habibi et al.'s lattice has equal masses; any other has the sheet's inertia at its edges
         self.cells = calibration.cells

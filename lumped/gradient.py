@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -51,7 +52,7 @@ CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES, *OF_LAWS, "patch", 
 CALIBRATED_FROM += ("natural.e", "natural.p")  # beginnings of names of what springs follow from
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
-STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
+STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8, "temperature": 1e-3}
 PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
 FIELD = "cells."
 FORCES = "forces"
@@ -74,7 +75,7 @@ class Plain:
         self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
         self.problem = build_problem(scene, calibration)
         self.cells = CellFields(scene, calibration, self.problem.assembly)
-        self._sides: dict[str, Sides] = {}
+        self.constants, self._sides = calibration.constants.names(), dict[str, Sides]()
 
     @classmethod
     def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Plain:
@@ -324,17 +325,19 @@ def of_changed(
     changed."""
     begins_on = name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
     changed = put(scene, name, value, checked and not begins_on)
+    grid, grading, material = calibration.grid, calibration.grading, changed.material
     if not name.startswith(CALIBRATED_FROM):
-        return changed, calibration
+        if name != "density" or calibration.cells is None:
+            return changed, calibration
+        return changed, replace(calibration, cells=sections_of(changed, grid, grading))
     if calibrate is not None:
         return changed, calibrate(changed)
     if calibration.method not in MAKERS:
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
-    own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
-    if (cells := sections_of(changed, calibration.grid, calibration.grading)) is not None:
+    own: dict[str, Any] = {"grading": grading} if grading else {}
+    if (cells := sections_of(changed, grid, grading)) is not None:
         own["cells"] = cells
     make = MAKERS[calibration.method]
-    grid, material = calibration.grid, changed.material
     return changed, calibrated_at_rest(changed, lambda sheet: make(sheet, material, grid, **own))

@@ -146,15 +146,16 @@ class Lattice:
         """Masses by plan position, positions at rest, and areas of the cells."""
         return self.columns(), self.positions, self.cell_areas
 
-    def at_distance(self, layer_distance: float) -> Lattice:
-        """Return the lattice with another distance of its layers [m]."""
-        if layer_distance == self.layer_distance:
+    def at_distance(self, layer_distance: float, per_area: np.ndarray | None) -> Lattice:
+        """Return the lattice with another distance of its layers [m], and mass per area of its cells."""
+        if layer_distance == self.layer_distance and per_area is self.per_area:
             return self
         by = [1.0, 1.0, layer_distance / self.layer_distance]
         offset = self.links.offset * by
         links = self.links._replace(offset=offset, rest_length=np.linalg.norm(offset, axis=1))
         positions = frozen(self.positions * by)
-        return replace(self, layer_distance=layer_distance, positions=positions, links=links)
+        own = {"layer_distance": layer_distance, "per_area": per_area}
+        return replace(self, positions=positions, links=links, **own)  # type: ignore[arg-type]
 
     def columns(self) -> np.ndarray:
         """Return the numbers of the masses by plan position, (ny, nx, layers)."""

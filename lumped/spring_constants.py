@@ -22,7 +22,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.objects.grid import Grid
 from sheetbench.scenes.objects.quantities import LARGEST
-from sheetbench.scenes.objects.springs import CONSTANTS, LATTICE, DamperSet, Either
+from sheetbench.scenes.objects.springs import CONSTANTS, DamperSet, Either
 
 NEAR_EDGES = ("edge_shear", "strip_shear", "edge_coupling")
 EDGES_OWN = (*NEAR_EDGES, *(f"far_{name}" for name in NEAR_EDGES))  # constants of edges, not of cells

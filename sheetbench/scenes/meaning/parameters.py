@@ -22,7 +22,6 @@ actuatorN.x, y, z, curvatureJ, bending_stiffness      of the scene's Nth [[actua
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
 from itertools import product
@@ -135,18 +134,13 @@ def names_of(scene: SceneFields) -> list[str]:
 @cache
 def _numbered(most: int) -> tuple[str, ...]:
     """Return the names that PLACES stands for, with numbers up to `most`."""
-    return tuple(name for pattern in PLACES for name in _expanded(pattern, most))
-
-
-def _expanded(pattern: str, most: int) -> Iterator[str]:
-    """Yield the names that a pattern of names stands for, with numbers up to `most`."""
-    parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
-    numbers = [str(n + 1) for n in range(most)]
-    words = [part.removeprefix("(").removesuffix(")") for part in parts]
-    choices = [
-        numbers if word == r"\d+" else [*word[1:-1]] if word[0] == "[" else word.split("|") for word in words
-    ]
-    return map("".join, product(*choices))
+    names, numbers = list[str](), [str(n + 1) for n in range(most)]
+    for pattern in PLACES:
+        parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
+        words = [part.removeprefix("(").removesuffix(")") for part in parts]
+        choices = [numbers if w == r"\d+" else [*w[1:-1]] if w[0] == "[" else w.split("|") for w in words]
+        names += map("".join, product(*choices))
+    return tuple(names)
 
 
 def put(scene: AScene, name: str, value: float, checked: bool = True) -> AScene:

@@ -214,17 +214,19 @@ class CellFields:
     ) -> np.ndarray:
         """Return the derivatives of v·(f − f_int) by a field, of the complete lattice `assembly`; by: the
         derivatives of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
-        base, found = fields.get(name, self.base[name]), np.zeros(1)
+        base = fields.get(name, self.base[name])
+        found = np.zeros_like(base)
         if name != "density":
             own = (fields.keys() - {name} if name == "young" else fields.keys()) & {*OF_SECTION, *STATE}
             if not own and name not in self._kept:
                 self._kept[name] = self._rates(name, {}, assembly)
             rates = self._rates(name, fields, assembly) if own else self._kept[name]
-            found = np.zeros((base.size // self.section.per_area.size, self.section.per_area.size))
+            size = self.section.per_area.size
+            by_cells = np.zeros((base.size // size, size))
             for (cells, rate), power in zip(rates, by, strict=False):
                 values = np.einsum("qmnc,mn->cqm", rate, power[: rate.shape[1], : rate.shape[2]])
-                found -= [np.bincount(cells.ravel(), of.ravel(), found.shape[1]) for of in values]
-            found = found.T.reshape(base.shape)
+                by_cells -= [np.bincount(cells.ravel(), of.ravel(), size) for of in values]
+            found = by_cells.T.reshape(base.shape)
         if name in ("density", "thickness") and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
             per_area = self.changed_section(fields).per_area / np.where(base > 0.0, base, 1.0)

@@ -48,8 +48,12 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import FIBRES, OF_LAWS, names_of, parameter, put, short_name
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
-CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES, *OF_LAWS, "patch", "layer", "temperature")
-CALIBRATED_FROM += ("natural.e", "natural.p")  # beginnings of names of what springs follow from
+CALIBRATED_FROM: tuple[str, ...] = ("young", "poisson", "thickness", *FIBRES, *OF_LAWS, "patch", "layer")
+CALIBRATED_FROM += (
+    "temperature",
+    "natural.e",
+    "natural.p",
+)  # beginnings of names of what springs follow from
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
 STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8, "temperature": 1e-3}

@@ -27,7 +27,7 @@ class Assembly:
     springs: the families (`lumped.springs.families`), the central `links` first. inertia: distribution of the
     mass in motion. couple: creates the actuators bound to the lattice; their rows follow the masses' rows in
     every array. rounding: relative spacing of the internal force's numbers. twisting: edges along which
-    nothing holds the director (`Scene.twisting_edges`). plan: lattice of the same plan, if there is one.
+    nothing holds the director (`Scene.twisting_edges`). plan: a lattice with an equal plan, if known.
     """
 
     natural: NaturalState | None = None

@@ -51,7 +51,7 @@ class Constraints:
     _reduced: dict[tuple[MassPattern, bool], ReducedSystem] = field(default_factory=dict)
 
     def on(self, lattice: Lattice) -> Constraints:
-        """Return the constraints on a lattice of the same plan."""
+        """Return the constraints for a lattice with an equal plan."""
         return self if lattice is self.lattice else replace(self, lattice=lattice)
 
     def turned(self, load_factor: float) -> np.ndarray:

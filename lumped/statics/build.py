@@ -40,8 +40,7 @@ def build_problem(
     weights : {"tributary", "full"}, default "tributary"
         Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
     same : Problem, optional
-        Problem of a scene with the same plan, grid and edges that twist, whose parts are taken where they are
-        the same.
+        Problem of a scene with an equal plan, grid and twisting edges, whose equal parts are taken over.
 
     Returns
     -------

@@ -138,7 +138,7 @@ class CellFields:
             e = fields.get("young", self.base["young"]) / np.where(there, self.base["young"], 1.0)
             inside = constants.scaled(e)
         else:
-            inside = replace(self._own, of=self._closed(cells).of)
+            inside = replace(self._closed_form, of=self._closed(cells).of)
         of = dict(inside.of)
         for name in RIMS_OWN:
             if name in constants.of:
@@ -166,7 +166,7 @@ class CellFields:
         return each_cell(sheet, self.scene.material, of.grid, of.grading, self.section)
 
     @cached_property
-    def _own(self) -> Springs:
+    def _closed_form(self) -> Springs:
         """The closed form's springs of the sections as they are. Raises BadInput where the lattice has
         others."""
         own, constants = self._closed(self.section), self.calibration.constants
@@ -261,7 +261,7 @@ class CellFields:
         lattice, springs = assembly.lattice, self.springs(fields)
         these = lattice.links_of(assembly.links.nodes)
         yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
-        kept = np.arange(lattice.cell_areas.size)[lattice.kept]
+        kept = np.arange(lattice.cell_areas.size)[lattice.present_cells]
         plain: list[Family] = [*cell_springs(lattice, assembly.pattern, springs)]
         strain = fields.get("strain", self.base["strain"])
         if strain.any():
@@ -283,5 +283,5 @@ class CellFields:
         layers = lattice.grid[2]
         shares = shares_of_layers(self.scene, lattice) if self.scene.layers else np.full(layers, 1.0 / layers)
         found = np.zeros(lattice.cell_areas.size)
-        found[lattice.kept] = 0.25 * (weight[lattice.mid_cells] @ shares).sum(axis=1)
+        found[lattice.present_cells] = 0.25 * (weight[lattice.mid_cells] @ shares).sum(axis=1)
         return found.reshape(self.shape) * lattice.cell_areas

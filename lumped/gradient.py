@@ -150,9 +150,9 @@ class Equilibrium:
             with one_blas_thread():  # that of the path's end may be older
                 found = self.problem.system.factor(self.problem.tangent(self.u, 1.0))
         except SingularMatrixError as error:
-            raise NoEquilibrium(f"lumped: singular: it has no derivatives: {error}") from None
+            raise NoEquilibrium(f"lumped: no derivatives, a singular tangent: {error}") from None
         if self.problem.descends and found.negative > 0:
-            raise NoEquilibrium("lumped: unstable: its derivatives are of another branch")
+            raise NoEquilibrium("lumped: no derivatives, an unstable equilibrium")
         return found
 
     @cached_property
@@ -300,20 +300,20 @@ def both_sides(
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
     else:
-        found = parameter(scene, name)
-        value, low, high = found.value, found.low, found.high
-    own = name.partition(".")[2] if name.startswith(PATCH) else name
-    step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
+        entry = parameter(scene, name)
+        value, low, high = entry.value, entry.low, entry.high
+    key = name.partition(".")[2] if name.startswith(PATCH) else name
+    step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
     step = share * abs(value) or step
     if step == 0.0:
-        raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
+        raise BadInput(f"parameter {name!r} is zero: differences need a scale")
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
     for end in ends:
         if of_springs:
             side, springs = scene, calibration.with_constant(name, end)
         else:
             side, springs = of_changed(scene, calibration, name, end, calibrate, name.startswith(EDGES))
-        sides.append((build_problem(side, springs, same=problem), springs))
+        sides.append((build_problem(side, springs, previous=problem), springs))
     return sides, ends[1] - ends[0]
 
 
@@ -325,8 +325,8 @@ def of_changed(
     calibrate: Calibrate | None,
     checked: bool = True,
 ) -> tuple[Scene, Calibration]:
-    """Return the scene with another value (`put`), and its springs, found anew where their sources have
-    changed."""
+    """Return the scene with another value (`put`), and its springs, calibrated again if they depend
+    on it."""
     begins_on = name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
     changed = put(scene, name, value, checked and not begins_on)
     grid, grading, material = calibration.grid, calibration.grading, changed.material

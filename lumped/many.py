@@ -92,7 +92,7 @@ def solve_many(
     sheet = Differentiable(scene, calibration, calibrate)
     counts = {len(values) for values in designs.values()}
     if len(counts) != 1:
-        raise BadInput(f"designs: {sorted(counts)} values: as many of each are needed")
+        raise BadInput(f"designs: {sorted(counts)} values: equal numbers of values are needed")
     start, count = sheet.solve({}), counts.pop()
     out, done = np.full((count, *start.shape), np.nan), np.zeros(count, dtype=bool)
 
@@ -113,7 +113,7 @@ def solve_many(
 
 
 def _plain(sheet: Differentiable) -> bool:
-    """Whether a lattice has springs of the linear laws alone, dead loads and a small matrix."""
+    """Return whether a lattice has only springs of linear laws, only dead loads and a small matrix."""
     problem = sheet.problem
     others = problem.items or problem.assembly.coupling is not None or problem.loads.follow
     linear = problem.assembly.conservative and not problem.assembly.any_strain
@@ -128,10 +128,11 @@ def _together(
     out: np.ndarray,
     done: np.ndarray,
 ) -> Callable[[slice], None]:
-    """Return the function that sets the displacements of a part of the designs, and which are found."""
+    """Return the function that sets the displacements of a part of the designs, and whether each has
+    converged."""
     problem, lattice = sheet.problem, sheet.problem.assembly.lattice
     links, *of_cells = problem.assembly.springs[:3]
-    base, kept = sheet.base[YOUNG].ravel(), np.arange(lattice.cell_areas.size)[lattice.kept]
+    base, kept = sheet.base[YOUNG].ravel(), np.arange(lattice.cell_areas.size)[lattice.present_cells]
     these = lattice.links_of(links.nodes)
     each = stiffness_by_cells(lattice, sheet.calibration.constants)[:, these, 0]
     cells, band, assembly = lattice.links.cells[:, these], problem.system.band, problem.assembly
@@ -173,13 +174,13 @@ def correct(
     done: np.ndarray,
 ) -> None:
     """Set displacements (designs, n, 3) [m] in equilibrium under loads (designs, n, 3) [N] with links of
-    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), sought from
-    `start` with its factors, then with their own, and which are found; rounding [N/m]: of forces, over the
-    displacement."""
+    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), by
+    the factors of `start`, then by their own, and `done` where converged; rounding [N/m]: of forces, over
+    the displacement."""
     n = len(band.order)
     a, b, c = springs.links, springs.layers, springs.middle
     for d in range(len(k)):
-        own = SpringArrays(
+        arrays = SpringArrays(
             LinkArrays(a.nodes, a.offset, a.rest, k[d], a.slots),
             CellArrays(b.nodes, b.sides, b.rest, AreaAndStrains(layers[d]), b.slots),
             CellArrays(c.nodes, c.sides, c.rest, AreaAndStrains(middle[d]), c.slots),
@@ -189,22 +190,22 @@ def correct(
             springs.diagonal,
         )
         u, last, size = start.copy(), np.inf, np.sqrt(np.sum(loads[d] ** 2))
-        factors, own_ones, fresh = of_start, False, False
+        factors, own_factors, fresh = of_start, False, False
         for _ in range(STEPS):
-            rows = transposed_product(free, (loads[d] - all_families.force(u, own)[1]).ravel(), n)
-            left = np.sqrt(np.sum(rows * rows))
-            ended = left <= max(TOLERANCE * size, rounding * np.abs(u).max())
-            slow = not fresh and not left <= (0.1 if own_ones else 0.5) * last
-            if slow or (not own_ones and left <= NEAR * size) or (ended and not own_ones):
-                blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), own)
+            rows = transposed_product(free, (loads[d] - all_families.force(u, arrays)[1]).ravel(), n)
+            imbalance = np.sqrt(np.sum(rows * rows))
+            converged = imbalance <= max(TOLERANCE * size, rounding * np.abs(u).max())
+            slow = not fresh and not imbalance <= (0.1 if own_factors else 0.5) * last
+            if slow or (not own_factors and imbalance <= NEAR * size) or (converged and not own_factors):
+                blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), arrays)
                 factors = banded.stored(blocks, band)
                 if not banded.factor(factors, n, band.width):
                     break
-                own_ones = fresh = True
+                own_factors = fresh = True
             else:
                 fresh = False
-            if ended:  # stable, as the tangent nearest to it says
+            if converged:  # stable, as the tangent nearest to it says
                 out[d], done[d] = u, True
                 break
-            last = left
+            last = imbalance
             u += product(free, banded.solve_unrefined(factors, band.width, band.order, rows)).reshape(u.shape)

@@ -60,7 +60,7 @@ class Constraints:
         for edge in self.driven:
             masses = self.holders[edge.edge][0].ravel()
             rest = self.lattice.positions[masses]
-            g[masses] = edge.placed(rest[:, :2], load_factor).lifted(rest[:, 2])
+            g[masses] = edge.displaced(rest[:, :2], load_factor).lifted(rest[:, 2])
         if self.coupling is not None:
             self.coupling.follow(g)
         return g

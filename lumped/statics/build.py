@@ -27,7 +27,7 @@ def build_problem(
     scene: Scene,
     calibration: Calibration,
     weights: Weights = "tributary",
-    same: Problem | None = None,
+    previous: Problem | None = None,
 ) -> Problem:
     """Return the lattice of a scene under its supports and loads.
 
@@ -39,7 +39,7 @@ def build_problem(
         Springs of the lattice.
     weights : {"tributary", "full"}, default "tributary"
         Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
-    same : Problem, optional
+    previous : Problem, optional
         Problem of a scene with an equal plan, grid and twisting edges, whose equal parts are taken over.
 
     Returns
@@ -58,18 +58,22 @@ def build_problem(
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
-    alike = {key for key in OF_PARTS if same is not None and getattr(scene, key) == getattr(same.scene, key)}
-    if same is not None and alike >= {*OF_SPRINGS} and same.assembly.calibration is calibration:
-        assembly = same.assembly
+    alike = {
+        key
+        for key in OF_PARTS
+        if previous is not None and getattr(scene, key) == getattr(previous.scene, key)
+    }
+    if previous is not None and alike >= {*OF_SPRINGS} and previous.assembly.calibration is calibration:
+        assembly = previous.assembly
     else:
         couple = partial(Coupling, scene) if scene.actuators else None
-        plan = None if same is None else same.assembly.lattice
+        plan = None if previous is None else previous.assembly.lattice
         assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges(), plan)
         x, y = (line.at for line in assembly.lattice.lines)
         if (state := natural_of_cells(stretched(scene, assembly), x, y)) is not None:
             assembly.grow(state)
-    if same is not None and "supports" in alike and assembly.coupling is same.assembly.coupling:
-        constraints = same.constraints.on(assembly.lattice)
+    if previous is not None and "supports" in alike and assembly.coupling is previous.assembly.coupling:
+        constraints = previous.constraints.on(assembly.lattice)
     else:
         constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:

@@ -321,5 +321,5 @@ def test_derivatives_of_a_frequency_are_those_of_differences(about):
     square = scene_of("one-edge-clamped", supports=tuple(Clamped(edge=e) for e in ("x0", "x1", "y0", "y1")))
     with pytest.raises(Impossible, match="modes 2 and 3 coincide"):
         lumped.modes(square, calibrated(square, 5), 4).sensitivity(2)
-    with pytest.raises(Impossible, match="neighbours"):
+    with pytest.raises(Impossible, match="need the next mode"):
         modes(scene).sensitivity(3)

@@ -48,15 +48,19 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import FIBRES, OF_LAWS, names_of, parameter, put, short_name
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
+# beginnings of names of what springs follow from
 CALIBRATED_FROM: tuple[str, ...] = ("young", "poisson", "thickness", *FIBRES, *OF_LAWS, "patch", "layer")
-CALIBRATED_FROM += (
-    "temperature",
-    "natural.e",
-    "natural.p",
-)  # beginnings of names of what springs follow from
+CALIBRATED_FROM += ("temperature", "natural.e", "natural.p")
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
-STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8, "temperature": 1e-3}
+STEP_OF |= {
+    "load": 1e-6,
+    "gravity": 1e-4,
+    "support": 1e-8,
+    "actuator": 1e-8,
+    "temperature": 1e-3,
+    "poisson": 4e-6,
+}
 PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
 FIELD = "cells."
 FORCES = "forces"
@@ -303,6 +307,8 @@ def both_sides(
         entry = parameter(scene, name)
         value, low, high = entry.value, entry.low, entry.high
     key = name.partition(".")[2] if name.startswith(PATCH) else name
+    if scene.obstacles and key == "thickness":  # which moves the surface that presses in
+        key = OBSTACLE
     step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
     step = share * abs(value) or step
     if step == 0.0:

@@ -141,9 +141,7 @@ class Static(Creeping[StaticState, Forces]):
     def placed(self, state: StaticState, load_factor: float) -> SheetShape:
         return self.sheet.shape(state.q, load_factor)
 
-    def restarted(
-        self, state: StaticState, before: StaticState, beyond: float
-    ) -> tuple[StaticState, float]:
+    def restarted(self, state: StaticState, before: StaticState, beyond: float) -> tuple[StaticState, float]:
         moved = replace(state, q=state.q + beyond * (state.q - before.q))
         return moved, self.potential(moved, 1.0)[1]
 

@@ -279,7 +279,7 @@ class Contact(LatticeItem):
         touched = slope.sum(axis=(2, 3)) / (self.share * self.full[:, first])
         pressed = self._of_masses(self._positive(load))
         pressure = np.divide(pressed, area, out=np.zeros_like(area), where=area > 0.0)
-        return ContactState.of(deepest / self.thickness[:, first], touched), pressure
+        return ContactState.of(deepest / self.thickness[:, first], touched, load), pressure
 
     def table(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return masses (t, q) around its points and their weights (t, q); and (t, 10) the obstacle's place,

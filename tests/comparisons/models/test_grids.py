@@ -190,7 +190,7 @@ def answered(**changes):
         ({"status": Status.UNSTABLE}, {}, {}),
         ({}, {}, {"status": Status.UNSTABLE}),
         ({"snaps": (0.7,)}, {}, {}),
-        ({}, {}, {"contacts": {"obstacle 1": ContactState(1e-6, 1e-5, 3, 0)}}),  # that the grid missed
+        ({}, {}, {"contacts": {"obstacle 1": ContactState(1e-6, 1e3, 1e-5, 3, 0)}}),  # that the grid missed
         ({}, {"calibration": "uniform"}, {}),
         ({}, {"grid": (9, 9, 3)}, {}),
         ({}, {"grid": (65, 65, 2)}, {}),

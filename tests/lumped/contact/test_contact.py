@@ -32,7 +32,7 @@ from lumped.patch import integrate
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Motion, Plane, PointLoad, SceneError
+from sheetbench.scenes import Motion, Plane, PointLoad, SceneError, Sphere
 from sheetbench.scenes.objects.grading import Grading
 
 TOUCHED = {**OBSTACLES, "rubbing": OBSTACLES["cylinder"].replace(friction=0.3, contact_damping=2.0)}
@@ -202,6 +202,45 @@ def test_moving_obstacle_ends_at_its_last_place():
     lifted = laid_strip(0.1, obstacles=(Plane(position=(0.0, 0.0, -0.1 - THICKNESS / 2), motion=press),))
     moved, placed = (solve(scene, (21, 3, 2)) for scene in (lifted, laid_strip(0.05)))
     assert moved.reactions["x0"] == pytest.approx(placed.reactions["x0"], rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+@pytest.mark.parametrize("ball", [False, True])
+def test_pressure_integrates_to_the_force(model, ball):
+    """On a plane and around a point: the mean one over the area in contact, and a lattice's field over it."""
+    scene = pressed_ball((0.0733, 0.0867), 1.5e-3) if ball else laid_strip(0.05)
+    solution = equilibrium(scene, model, (9, 9) if ball else (21, 3), (8, 8) if ball else (10, 1))
+    found, force = solution.document()["contacts"]["obstacle 1"], solution.reactions["obstacle 1"]
+    within = 3e-4 if ball else 1e-6  # normals around a ball are not parallel
+    assert found["pressure"] * found["area"] == pytest.approx(np.linalg.norm(force), rel=within)
+    assert found["area"] < (2e-6 if ball else 0.0601)
+    if model == "lumped":
+        field, masses = solution.mesh.point_data, 2 * (64 if ball else 40)
+        each = scene.sheet.length_x * scene.sheet.length_y * field["mass_share"] / masses
+        assert field["contact_pressure"] @ each == pytest.approx(np.linalg.norm(force), rel=within)
+
+
+@pytest.mark.parametrize("far", [
+    Plane(position=(0.0, 0.0, -30.0)), Sphere(position=(0.5, 0.0, -20.0), radius=1.0),
+])  # fmt: skip
+def test_far_obstacle_changes_nothing(far):
+    """Neither a shape at rest of lattice or shell, nor a motion, nor a frequency."""
+
+    def answers(scene):
+        springs = lumped.calibrate(scene.sheet, scene.material, grid=(7, 3, 2))
+        moving = {"step": 5e-6, "every": 2e-4, "integrator": "verlet"}
+        return [
+            lumped.solve(scene, springs).displacement([[1.0, 0.05]]),
+            fem_reference.solve(scene, "shell", elements=(3, 1)).displacement([[1.0, 0.05]]),
+            np.stack([*lumped.simulate(scene, springs, 2e-3, **moving).probes.values()]),
+            lumped.modes(scene, springs, 3, about="deformed").frequencies,
+        ]
+
+    free = laid_strip(0.05, obstacles=())
+    *shapes, frequencies = zip(answers(free), answers(free.replace(obstacles=(far,))), strict=True)
+    for without, beside in shapes:
+        assert beside == pytest.approx(without, rel=1e-9, abs=1e-12)
+    assert frequencies[1] == pytest.approx(frequencies[0], rel=2e-8)  # rounding of eigenvalues
 
 
 def test_without_an_obstacle_nothing_of_contact_runs():

@@ -33,7 +33,7 @@ from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
 LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to stage
 POINT, LINE = 1 / 2, 2 / 3  # powers of 1/k that depths of patches are like
-REACH = 0.1  # largest displacement of the first linear step beside a round obstacle: longer ones lead around it
+REACH = 0.1  # largest displacement of the first linear step; longer ones lead around a round obstacle
 LOOSE, CLOSE, CLOSER = 0.05, 0.01, 1e-3  # residuals at which soft load steps end, and stages but the last
 PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents

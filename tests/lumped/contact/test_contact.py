@@ -383,6 +383,14 @@ def test_cradle_is_stable_and_rocks_on_grids_of_either_parity(grid, graded):
     assert slowest == pytest.approx(rocking_frequency(), rel=0.03)
 
 
+def test_light_sheet_is_not_left_in_the_air():
+    """Of the forces of 41 × 9 masses its weight is less than a stage's residual: a start off the table passed
+    for an equilibrium."""
+    solution = solve(curled_sheet(), (41, 9, 2), method="consistent-membrane")
+    assert solution.status is Status.CONVERGED
+    assert solution.iterations <= 30
+
+
 @pytest.mark.parametrize("number", [pytest.param(2, marks=pytest.mark.nightly), 22, 39, 59])
 def test_drawn_sheet_is_not_walked_through(number):
     assert judged(number) == ""

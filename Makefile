@@ -12,7 +12,7 @@ packages = $(BIN)/uv pip install --quiet --python $(BIN)/python --constraint con
            $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $(1)
 
 .PHONY: docs docs-scene help install demo test check nightly kernels slow fuzz kills sizes catalogue verify tradeoff animations pictures \
-        notebooks bench mutants tests-of viewer wheel-check extras-check release-check lint clean
+        bench mutants tests-of viewer wheel-check extras-check release-check lint clean
 help:
 	@echo "make demo      set up and compare both models on test 1 of the published study, Habibi et al. (files in $(OUT)/)"
 	@echo "make test      set up and run the tests, the linter and the type checker"
@@ -34,8 +34,7 @@ help:
 	@echo "make docs-scene  the sketch of a scene, docs/images/scene.svg"
 	@echo "make animations  the moving pictures of README and catalogue, docs/images/*.gif (four minutes)"
 	@echo "make pictures  the still pictures of the README and of the pages (a minute; needs chromium)"
-	@echo "make notebooks the notebooks of docs/notebooks anew, with what they print and draw"
-	@echo "make docs      the documentation as a site, docs/_build/html/index.html (three minutes; a warning is an error)"
+	@echo "make docs      the documentation as a site, docs/_build/html/index.html (four minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make extras-check  the wheel with each extra on its own, and with none, in environments that have nothing else"
 	@echo "make release-check  the wheel and the source distribution in dist/, the wheel tried bare on $(RELEASED)"
@@ -140,9 +139,6 @@ pictures: install
 	@$(BIN)/python docs/pictures.py
 	@$(BIN)/sheetbench compare two-edges-clamped --no-pictures --overwrite --out $(OUT)/page >/dev/null
 	@$(BIN)/python docs/page_pictures.py $(OUT)/page
-
-notebooks: $(VENV)/testing
-	@$(BIN)/python docs/run_notebooks.py
 
 docs-scene: install
 	@$(BIN)/python docs/scene_sketch.py

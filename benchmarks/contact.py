@@ -87,7 +87,7 @@ def balls() -> None:
         found += [fem_reference.solve(scene, "shell", elements=side) for side in (8, 12, 16)]
         off = [f"{100 * (one.reactions['obstacle 1'][2] / truth - 1):+.2f} %" for one in found]
         steps = ", ".join(str(one.iterations) for one in found)
-        print(f"ball at {at} of 9, 10, 17 masses, 8, 12, 16 elements: {', '.join(off)}; factorisations {steps}")
+        print(f"ball {at}, 9, 10, 17 masses, 8, 12, 16 elements: {', '.join(off)}; factorisations {steps}")
 
 
 def lying() -> None:

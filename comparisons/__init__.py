@@ -1,1 +1,1 @@
-"""Everything that puts models side by side: comparisons, tables, pictures, VTK files, the command line."""
+"""Comparison of models side by side: tables, pictures, VTK files, the command line."""

@@ -32,13 +32,15 @@ TRY = Path(__file__).parent / "_try"  # the page that steps lattices in the brow
 TRY.mkdir(exist_ok=True)
 html_extra_path = ["_try"]
 exclude_patterns = ["_build", "_try", "try", "examples/*.ipynb"]  # of the gallery: downloads
+html_static_path, html_css_files = ["_static"], ["site.css"]
 html_theme = "furo"
 html_title = "sheetbench"
 smartquotes_action = "qe"  # quotes and ellipses; an option's two dashes stay
 templates_path: list[str] = []
 
 myst_heading_anchors = 3
-nb_execution_mode = "off"  # notebooks bring what they print and draw: docs/run_notebooks.py
+nb_execution_mode, nb_execution_timeout = "cache", 600  # run again only when their cells change
+nb_execution_raise_on_error, nb_merge_streams, nb_output_stderr = True, True, "remove"
 myst_enable_extensions = ["dollarmath"]
 
 autodoc_typehints = "description"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from shutil import which
 
 from playwright.sync_api import Browser, sync_playwright
 
@@ -24,7 +25,7 @@ def main(folder: Path) -> None:
     target = folder / "report.html"
     target.write_text(page(read(folder), "A sheet with two clamped edges"), encoding="utf-8")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=FLAGS)
+        browser = playwright.chromium.launch(executable_path=which("chromium"), args=FLAGS)
         shown = browser.new_page(viewport={"width": 1080, "height": 1350})
         shown.goto(target.resolve().as_uri())
         shown.wait_for_timeout(500)

@@ -67,7 +67,7 @@ def build(folder: Path) -> str:
     for name in SCENES:
         for thickness in THICKNESSES:
             scene = scene_of(name, thickness)
-            springs = resolve(scene, Lattice(9), "springs", own=False).calibrated([scene])
+            springs = resolve(scene, Lattice(9), "springs", scene_springs=False).calibrated([scene])
             with tempfile.TemporaryDirectory() as place:
                 texts = program(scene, springs, steps=20).texts
                 for file, more in (("sheet.h", ""), ("sheet.c", "sheet SHEET; double THREE[3];\n")):

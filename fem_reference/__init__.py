@@ -79,7 +79,7 @@ def solve(
 
     scene = scene_of(scene)
     if near is not None and model != "shell":
-        raise BadInput(f"{model}: is not begun near a shape; the shell is")
+        raise BadInput(f"{model}: cannot start from a given shape; the shell can")
     require_static(scene, "the plate, which is linear," if model == "plate" else "")
     branch = requested.pop("branch", "path")
     division = sheets.division_of(scene, model, **requested)

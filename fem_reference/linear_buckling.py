@@ -54,7 +54,7 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
     require_static(scene := scene_of(scene), "buckling")
     require_flat_and_dead(scene)
     if model not in ("shell", "solid"):
-        raise BadInput(f"model = {model!r}: buckling is of shell and solid; the plate's strains are linear")
+        raise BadInput(f"model = {model!r}: no buckling, its strains are linear; choose shell or solid")
     started, counts = now(), divisions(scene.sheet, elements)
     sheet = SHEETS[model](scene, counts, law=scene.material.law or STRAIN_LAW)
     smallest = STILL * max(scene.sheet.lengths)

@@ -30,7 +30,7 @@ class FrequencyGradient(SheetGradient):
 
     def __init__(self, sheet: DiscreteShell, q: np.ndarray, at: float, mode: np.ndarray, squared: float):
         if sheet.contacts:
-            raise Impossible("derivatives of frequencies: not beside obstacles, on which they may jump")
+            raise Impossible("derivatives of frequencies: not with obstacles, where frequencies may jump")
         scale = 1.0 / (4.0 * np.pi * np.sqrt(squared))  # df/dω²
         step = SMALL * sheet.scene.sheet.thickness / np.abs(sheet.displacement(mode)).max()
         of = SheetSensitivity(sheet, q, at)
@@ -47,12 +47,12 @@ class FrequencyGradient(SheetGradient):
         self._mode, self._by_mass = mode, -squared * scale
 
     def __getitem__(self, name: str) -> float:
-        found: float = super().__getitem__(name)
+        derivative: float = super().__getitem__(name)
         if name.startswith("mass"):
             ends, over = self.of.ends(name)
             low, high = (self._mode @ (self.of.sheet.with_scene(end).mass @ self._mode) for end in ends)
-            found += self._by_mass * (high - low) / over
-        return found
+            derivative += self._by_mass * (high - low) / over
+        return derivative
 
 
 def _of_shape(

@@ -74,9 +74,9 @@ class SheetSensitivity:
         try:
             found = self.sheet.solver().factor(matrix)
         except SingularMatrixError as error:
-            raise NoEquilibrium(f"{self.sheet.model}: singular: it has no derivatives: {error}") from None
+            raise NoEquilibrium(f"{self.sheet.model}: no derivatives, a singular tangent: {error}") from None
         if found.negative > 0 or found.zero > 0:
-            raise NoEquilibrium(f"{self.sheet.model}: unstable: its derivatives are of another branch")
+            raise NoEquilibrium(f"{self.sheet.model}: no derivatives, an unstable equilibrium")
         return found
 
     @cached_property
@@ -133,7 +133,7 @@ class SheetSensitivity:
         sheet, shape, rate, placed = self.sheet, self.shape, *np.zeros((2, self.sheet.size))
         with one_blas_thread():
             for name, change in changes.items():
-                both = self.rates(*self.ends(name), whole=True)
+                both = self.rates(*self.ends(name), with_constants=True)
                 rate, placed = rate + change * both[0], placed + change * both[1]
             rate += self.product(placed)
             step = sheet.expand(shape, self.factor.solve(-sheet.reduce(shape, rate)))
@@ -193,16 +193,16 @@ class SheetSensitivity:
         return (low, high), at[1] - at[0]
 
     def rates(
-        self, ends: tuple[Scene, Scene], over: float, weight: bool = True, whole: bool = False
+        self, ends: tuple[Scene, Scene], over: float, weight: bool = True, with_constants: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (N,) and ∂δ/∂θ (N,) between two scenes that differ by `over`. weight: whether with
-        loads and the weight of the sheet. whole: whether with the elements' constants, too."""
+        loads and the weight of the sheet. with_constants: whether with the elements' constants, too."""
         sheet, shape, placed = self.sheet, self.shape, np.zeros(self.sheet.size)
         sides = [sheet.with_scene(end) for end in ends]
         forces = []
         for side in sides:
-            element = side.elements_of(None, side.law)[0] if whole else sheet.element
-            strain = side.strain(shape.change, shape.at) if whole else self._unstrained(side)
+            element = side.elements_of(None, side.law)[0] if with_constants else sheet.element
+            strain = side.strain(shape.change, shape.at) if with_constants else self._unstrained(side)
             force = sheet.scatter(element.forces(shape.operator, element.stress(strain)))
             for body in side.bodies:
                 force += body.scatter(body.pull(shape.q, body.stress(shape)))

@@ -140,7 +140,7 @@ def start(sheet: DiscreteElements) -> np.ndarray:
     """Return q (N,) of a sheet in motion at t = 0: flat, or the equilibrium to start from
     (`scenes.meaning.motion`). Raises NoEquilibrium where no equilibrium is stable."""
     if starts_flat(sheet.scene):
-        return sheet.placed(np.zeros(sheet.size), 0.0)
+        return sheet.on_supports(np.zeros(sheet.size), 0.0)
     kind: Any = type(sheet)
     options = {name: sheet.settings[name] for name in ("layers", "law", "clamp") if name in sheet.settings}
     q, status, notes = equilibrium(kind(sheet.plan.mesh, at_start(sheet.scene), **options))
@@ -148,4 +148,4 @@ def start(sheet: DiscreteElements) -> np.ndarray:
         require_stable(sheet.model, status, notes)
     except NoEquilibrium as error:
         raise NoEquilibrium(f"{NO_START}: {error}") from None
-    return sheet.placed(q, 0.0)
+    return sheet.on_supports(q, 0.0)

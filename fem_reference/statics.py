@@ -48,7 +48,7 @@ def solve(
         start = partial(coarse_start.start, sheet, path.state.q) if coarse_start.plain(path) else None
         runs.insert(0, run)
     if runs[0].path.fault is STRETCHED:
-        fallback = "divided evenly, for it bends much"
+        fallback = "elements of one size, for the bending"
         runs.insert(0, traced(division.with_grading(False).sheet, progress=progress, buckled=buckled))
     answer = answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
     if (make_again := runs[0].sheet.again()) is None:

@@ -61,17 +61,17 @@ class ReferenceModes(NaturalModes):
         last mode computed."""
         if self.gradient_of is None:
             raise Impossible(
-                f"derivatives of frequencies: of plate and shell, without a section; not of {self.label}"
+                f"derivatives of frequencies: for plate and shell without a section, not for {self.label}"
             )
         if not 1 <= number < len(self.frequencies):
-            raise Impossible(f"mode {number}: its neighbours must be known: 1 to {len(self.frequencies) - 1}")
+            raise Impossible(
+                f"mode {number}: derivatives need the next mode: choose 1 to {len(self.frequencies) - 1}"
+            )
         frequency = self.frequencies[number - 1]
         coincident = np.abs(self.frequencies - frequency) <= COINCIDENT * frequency
         if coincident.sum() > 1:
             numbers = " and ".join(str(n + 1) for n in np.flatnonzero(coincident))
-            raise Impossible(
-                f"modes {numbers} coincide: each of their frequencies has no derivative of its own"
-            )
+            raise Impossible(f"modes {numbers} coincide: a single frequency of them has no derivative")
         return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
@@ -138,7 +138,7 @@ def modes(
     if about == "deformed":
         require_static(scene)
         if model != "shell" or scene.actuators:
-            raise BadInput("--about = deformed: of the references the shell alone, and without actuators")
+            raise BadInput("--about = deformed: for the shell only, and without actuators")
     scene = scene.replace(actuators=())
     division = division_of(scene, model, elements, **options)
     with one_blas_thread():
@@ -146,7 +146,7 @@ def modes(
         if about == "deformed":
             if any(isinstance(item, Following) for item in sheet.items):
                 raise BadInput(
-                    "--about = deformed: pressure and edge moments follow the sheet: it has no modes then"
+                    "--about = deformed: not with pressure and edge moments, which follow the sheet"
                 )
             (q, status, notes), at, rigid = equilibrium(sheet), 1.0, 0
             require_stable("shell", status, notes)

@@ -139,7 +139,7 @@ class CellFields:
             e = fields.get("young", self.base["young"]) / np.where(there, self.base["young"], 1.0)
             inside = constants.scaled(e)
         else:
-            inside = replace(self._own, of=self._closed(cells).of)
+            inside = replace(self._closed_form, of=self._closed(cells).of)
         of = dict(inside.of)
         for name in RIMS_OWN:
             if name in constants.of:
@@ -165,7 +165,7 @@ class CellFields:
         return springs_of_cells(each, self.calibration.layer_distance, anyhow=True, **CLOSED[method])
 
     @cached_property
-    def _own(self) -> Springs:
+    def _closed_form(self) -> Springs:
         """The closed form's springs of the sections as they are. Raises BadInput where the lattice has
         others."""
         own, constants = self._closed(self.section), self.calibration.constants
@@ -267,16 +267,16 @@ class CellFields:
             ends, over = [(base + step, 1.0), (base - step, -1.0)], 2.0 * step
         over = np.where(over > 0.0, over, 1.0).ravel()
         sides = [(self._of_cells({**fields, name: end}, assembly), sign) for end, sign in ends]
-        found = []
+        products = []
         for parts in zip(*(side for side, _ in sides), strict=True):
             cells, rate = (
                 parts[0][0],
-                sum(sign * own for (_, own), (_, sign) in zip(parts, sides, strict=True)),
+                sum(sign * constants for (_, constants), (_, sign) in zip(parts, sides, strict=True)),
             )
             if rate.shape[2] == RUBBER.count:
                 rate[..., LIMIT] = 0.0  # a strain
-            found.append((cells, (rate / over[cells][:, :, None])[..., None]))
-        return found
+            products.append((cells, (rate / over[cells][:, :, None])[..., None]))
+        return products
 
     def _of_cells(self, fields: Fields, assembly: Assembly) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield of each kind of springs the cells beside each, (q, m), and their shares (q, m, n) of its
@@ -284,7 +284,7 @@ class CellFields:
         lattice, springs = assembly.lattice, self.springs(fields)
         these = lattice.links_of(assembly.links.nodes)
         yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
-        kept = np.arange(lattice.cell_areas.size)[lattice.kept]
+        kept = np.arange(lattice.cell_areas.size)[lattice.present_cells]
         plain: list[Family] = [*cell_springs(lattice, assembly.pattern, springs)]
         strain = fields.get("strain", self.base["strain"])
         if strain.any():
@@ -306,5 +306,5 @@ class CellFields:
         layers = lattice.grid[2]
         shares = shares_of_layers(self.scene, lattice) if self.scene.layers else np.full(layers, 1.0 / layers)
         found = np.zeros(lattice.cell_areas.size)
-        found[lattice.kept] = 0.25 * (weight[lattice.mid_cells] @ shares).sum(axis=1)
+        found[lattice.present_cells] = 0.25 * (weight[lattice.mid_cells] @ shares).sum(axis=1)
         return found.reshape(self.shape) * lattice.cell_areas

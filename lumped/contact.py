@@ -27,7 +27,7 @@ import numpy as np
 
 from lumped.assembly import Assembly
 from lumped.cell_surface import LINEAR, CellSurface, CurvedSurface, shapes
-from lumped.items import LatticeItem, Placed, Since
+from lumped.items import Deformed, LatticeItem, Since
 from lumped.lattice import Lattice
 from lumped.masses import over_tributary
 from lumped.mid_surface import MidSurface
@@ -54,7 +54,7 @@ class Pressed(NamedTuple):
 
     of: Any
     sides: np.ndarray
-    found: Near
+    near: Near
     energy: np.ndarray
     load: np.ndarray
     slope: np.ndarray
@@ -87,7 +87,9 @@ class Contact(LatticeItem):
         sides = across * [line.widths.max() for line in lattice.lines]
         if obstacle.radius < THINNEST * sides.max():
             thin = f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm"
-            raise BadInput(f"{thin}, which would step over it; {THINNEST:g} of that or more, or a finer grid")
+            raise BadInput(
+                f"{thin}, which would miss it; take {THINNEST:g} of a cell or more, or a finer grid"
+            )
         self._scene, self._lattice, self._sides = scene, lattice, sides
         self.surface = CellSurface(lattice.grid, lattice.layer_distance)
         self.nodes = lattice.mid_cells.reshape(-1, 4 * lattice.grid[2])
@@ -117,7 +119,7 @@ class Contact(LatticeItem):
         self.area = np.outer(areas[areas > 0.0], np.bincount(corners, minlength=len(r))) / len(corners)
         self.shares = self.basis if self.bent else self.weights
 
-    def _surface(self, at: Placed, of: Any) -> tuple[np.ndarray, Near]:
+    def _surface(self, at: Deformed, of: Any) -> tuple[np.ndarray, Near]:
         vectors, sides = self._rest[of] + at[0][self.nodes[of]], np.empty((3, 0))
         if self.bent:
             vectors, sides = self.surface.vectors(vectors)
@@ -138,7 +140,7 @@ class Contact(LatticeItem):
         lent = np.einsum("kq,kqi->ki", share, vectors[:, 4:])
         return straight.of(u) + lent, CurvedSurface(self._lattice, plan, nodes, by)
 
-    def near(self, at: Placed) -> Near:
+    def near(self, at: Deformed) -> Near:
         """Return the places of points (m, p) of cells beside the obstacle."""
         return self._surface(at, ...)[1]
 
@@ -159,7 +161,7 @@ class Contact(LatticeItem):
         load, slope = k * (0.5 * curved**2 / over + sure), k * curved / over
         return energy[..., 0], load, slope[..., None], depth[..., 0]
 
-    def _pressed(self, at: Placed, since: Since = None, tangent: bool = False) -> Pressed:
+    def _pressed(self, at: Deformed, since: Since = None, tangent: bool = False) -> Pressed:
         """Return the state of cells that may touch; since: the mean of a step from there."""
         if since is None:
             places = self._rest + at[0][self.nodes]
@@ -193,9 +195,9 @@ class Contact(LatticeItem):
         """Return loads of groups shared among the corners of parts: none pulls there."""
         return self._at_points(load if self.at_corners else load @ TO_CORNERS)
 
-    def add_force(self, at: Placed, force: np.ndarray, since: Since = None) -> float:
+    def add_force(self, at: Deformed, force: np.ndarray, since: Since = None) -> float:
         pressed = self._pressed(at, since)
-        pull = self.shares.T @ (self._at_points(pressed.load)[..., None] * pressed.found.slope)
+        pull = self.shares.T @ (self._at_points(pressed.load)[..., None] * pressed.near.slope)
         if self.bent:
             linear = np.einsum("mqi,mqirj->mrj", pull, self.surface.slopes(pressed.sides), optimize=True)
             pull = self.surface.linear.T @ linear
@@ -203,49 +205,49 @@ class Contact(LatticeItem):
         return float(pressed.energy.sum())
 
     def add_tangent(
-        self, at: Placed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
+        self, at: Deformed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
-        of, sides, found, _, load, slope, _ = self._pressed(at, since, True)
+        of, sides, near, _, load, slope, _ = self._pressed(at, since, True)
         cell, group = np.nonzero(load.any(axis=2))
         on, back = np.unique(cell, return_inverse=True)
         if not len(on):
             return
         points, (size, shares) = self.groups[group], (self.groups.shape[1], self.shares)
-        change = shares[points][..., None] * found.slope[cell[:, None], points][:, :, None]
+        change = shares[points][..., None] * near.slope[cell[:, None], points][:, :, None]
         change = change.reshape(len(cell), size, -1)
         by = np.zeros((len(on), *2 * change.shape[2:]))
         np.add.at(by, back, change.swapaxes(1, 2) @ slope[cell, group] @ change)
         loads = self._at_points(load[on])
         if not definite:
-            both = np.einsum("mp,pa,pb->mab", loads / found.touch[on], shares, shares, optimize=True)
+            both = np.einsum("mp,pa,pb->mab", loads / near.touch[on], shares, shares, optimize=True)
             by -= np.einsum("mab,ij->maibj", both, projector(self.obstacle)).reshape(by.shape)
         if self.bent:
             sides, linear = sides[:, on], self.surface.linear
             first = self.surface.slopes(sides).reshape(-1, 36, 3 * LINEAR)
             by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, LINEAR, 3, LINEAR, 3)
             if not definite:
-                pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], found.slope[on])
+                pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], near.slope[on])
                 by -= self.surface.second(sides, pull)
             by = np.einsum("ra,mrisj,sb->maibj", linear, by, linear, optimize=True)
         size = self.nodes.shape[1]
         of_masses = by.reshape(-1, size, 3, size, 3).transpose(0, 1, 3, 2, 4)
         np.add.at(blocks, self.slots[of][on], scale * of_masses)
 
-    def _resisted(self, at: Placed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    def _resisted(self, at: Deformed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
         """Return cells that may touch, velocities of points past the obstacle (m, p, 3) [m/s], and forces (m,
         p, 3) [N] of dashpot and friction with their derivatives by velocity (m, p, 3, 3)."""
         pressed = self._pressed(at)
         speed = self.weights @ (v[self.nodes[pressed.of]] - self.obstacle.velocity(at[1].time))
-        return pressed.of, speed, pressed.found.resistance(self._positive(pressed.load), speed)
+        return pressed.of, speed, pressed.near.resistance(self._positive(pressed.load), speed)
 
-    def add_resistance(self, at: Placed, v: np.ndarray, force: np.ndarray) -> float:
+    def add_resistance(self, at: Deformed, v: np.ndarray, force: np.ndarray) -> float:
         if not self.resists:
             return 0.0
         of, speed, (pull, _) = self._resisted(at, v)
         np.add.at(force, self.nodes[of], -np.einsum("pq,mpi->mqi", self.weights, pull))
         return -float((pull * speed).sum())
 
-    def add_resistance_tangent(self, at: Placed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
+    def add_resistance_tangent(self, at: Deformed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         if self.resists:
             of, _, (_, by_speed) = self._resisted(at, v)
             touched = by_speed.any(axis=(1, 2, 3))
@@ -267,11 +269,11 @@ class Contact(LatticeItem):
         self.rounded = ROUNDED
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
-    def rounding(self, at: Placed) -> float:
+    def rounding(self, at: Deformed) -> float:
         touched = self._pressed(at, tangent=True).slope.sum(axis=(2, 3))
         return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
-    def report(self, at: Placed) -> tuple[ContactState, np.ndarray]:
+    def report(self, at: Deformed) -> tuple[ContactState, np.ndarray]:
         """Return the state of contact at an equilibrium and the pressure (n,) [Pa] at the masses."""
         found = self.near(at)
         _, load, slope, deepest = self._law(found.sunk[:, self.groups], ..., True)

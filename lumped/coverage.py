@@ -33,7 +33,7 @@ def cell_shares(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarr
     if shape is None and not scene.pierced:
         return np.ones(lattice.cell_areas.size)
     share = shares_of(part_of(scene, shape), *(lines.at for lines in lattice.lines))
-    return np.asarray(share.ravel()[lattice.kept])
+    return np.asarray(share.ravel()[lattice.present_cells])
 
 
 def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.ndarray:
@@ -146,8 +146,8 @@ def reached_parts(scene: Scene) -> Reach:
         shape = None if isinstance(one, Point) or holds_director(one) else place(one)
         if shape is not None and shape.rectangle is None and not part_of(scene, shape).area:
             why = (
-                "the lattice holds round and oblique rims clamped alone: masses held in a zigzag hold their "
-                "slope too; plate, shell and solid have it hinged"
+                "the lattice can only clamp round and oblique rims: its masses there hold the slope too; "
+                "choose plate, shell or solid"
             )
             raise BadInput(f"{name}.where: {why}")
     held = [s for s in scene.supports if place(s) is None and not isinstance(s, Symmetric)]
@@ -176,7 +176,7 @@ def held_columns(
         where = ", ".join(f"{at:g}" for at in support.at)
         raise BadInput(
             f"{name}.at = [{where}]: no mass of a grid of {grid} is there; take a grid with lines through it "
-            "(lumped.calibrate: grading), or a point that has one"
+            "(lumped.calibrate: grading), or a point with a mass"
         )
     inside[np.isin(columns[:, :, 0], lattice.absent_masses)] = False
     if not inside.any():

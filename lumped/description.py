@@ -173,7 +173,7 @@ def describe(scene: Scene, calibration: Calibration) -> Description:
         raise BadInput("export: actuators are not springs between masses; export a scene without them")
     require_no_branches(scene.material, "an exported lattice")
     if any(payload.inertia is not None for payload in scene.masses):
-        raise BadInput("mass.inertia: an exported lattice has masses alone, which neighbours do not share")
+        raise BadInput("mass.inertia: an exported lattice has point masses only")
     if scene.air is not None:
         raise BadInput("air: an exported lattice has no drag; leave [air] out")
     problem = build_problem(scene, calibration)
@@ -300,11 +300,11 @@ def _differences(scene: Scene) -> tuple[str, ...]:
     ]
     moving += [name for name, body in scene.named_obstacles().items() if body.motion is not None]
     loads = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
-    changes = [f"{name} moves over time; here it is where it ends" for name in moving]
+    changes = [f"{name} moves over time; the files have its last place" for name in moving]
     if any(load.history is not None for load in loads):
-        changes.append("loads change over time in this scene; here they have their last values")
+        changes.append("loads change over time; the files have their last values")
     if any(state.history is not None for state in scene.natural_states.values()):
-        changes.append("the natural state changes over time; here it has its last value")
+        changes.append("the natural state changes over time; the files have its last value")
     return tuple(changes)
 
 

@@ -157,9 +157,9 @@ class Equilibrium:
             with one_blas_thread():  # that of the path's end may be older
                 found = self.problem.system.factor(self.problem.tangent(self.u, 1.0))
         except SingularMatrixError as error:
-            raise NoEquilibrium(f"lumped: singular: it has no derivatives: {error}") from None
+            raise NoEquilibrium(f"lumped: no derivatives, a singular tangent: {error}") from None
         if self.problem.descends and found.negative > 0:
-            raise NoEquilibrium("lumped: unstable: its derivatives are of another branch")
+            raise NoEquilibrium("lumped: no derivatives, an unstable equilibrium")
         return found
 
     @cached_property
@@ -312,18 +312,18 @@ def both_sides(
     if of_springs := name in (*calibration.constants.names(), "layer_distance"):
         value, low, high = calibration.constants.value(name), -np.inf, np.inf
     else:
-        found = parameter(scene, name)
-        value, low, high = found.value, found.low, found.high
-    own = name.partition(".")[2] if name.startswith(PATCH) else name
-    step = next((h for kind, h in STEP_OF.items() if own.startswith(kind)), STEP * abs(value))
+        entry = parameter(scene, name)
+        value, low, high = entry.value, entry.low, entry.high
+    key = name.partition(".")[2] if name.startswith(PATCH) else name
+    step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
     step = share * abs(value) or step
     if step == 0.0:
-        raise BadInput(f"parameter {name!r} is zero here: it has no scale to differentiate on")
+        raise BadInput(f"parameter {name!r} is zero: differences need a scale")
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
     for end in ends:
         if of_springs:
             springs = calibration.with_constant(name, end)
-            sides.append((build_problem(scene, springs, same=problem), springs))
+            sides.append((build_problem(scene, springs, previous=problem), springs))
         else:
             side, springs = of_changed(scene, calibration, name, end, calibrate)
             sides.append((build_problem(side, springs), springs))
@@ -333,7 +333,7 @@ def both_sides(
 def of_changed(
     scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
 ) -> tuple[Scene, Calibration]:
-    """Return the scene with another value, and its springs, found anew where their sources have changed."""
+    """Return the scene with another value, and its springs, calibrated again if they depend on it."""
     if name.startswith(OBSTACLE):  # unchecked: a sheet that begins on one is within it by so little
         fields = SceneFields.model_construct(**dict(scene))
         changed = scene.model_copy(update=dict(put(fields, name, value)))

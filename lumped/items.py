@@ -14,8 +14,8 @@ import numpy as np
 
 from lumped.actuators import Drive
 
-Placed = tuple[np.ndarray, Drive]  # displacement of the masses, and load factor or time
-Since = Placed | None  # start of the step over which a mean is returned
+Deformed = tuple[np.ndarray, Drive]  # displacement of the masses, and load factor or time
+Since = Deformed | None  # start of the step over which a mean is returned
 
 
 class LatticeItem(Protocol):
@@ -29,25 +29,25 @@ class LatticeItem(Protocol):
     velocity: Callable[[float], np.ndarray]
     resists: bool
 
-    def add_force(self, at: Placed, force: np.ndarray, since: Since = None) -> float:
+    def add_force(self, at: Deformed, force: np.ndarray, since: Since = None) -> float:
         """Add the internal force, or, given the start of a step, the mean force whose work in the step is the
         energy's change; return the energy [J]."""
 
     def add_tangent(
-        self, at: Placed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
+        self, at: Deformed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
         """Add scale × the force's derivative to the pattern's blocks (b, 3, 3) [N/m]; for the mean force of a
         step the symmetric part of the derivative by the displacement at the step's end. definite: leave out
         parts that could make the tangent indefinite."""
 
-    def add_resistance(self, at: Placed, v: np.ndarray, force: np.ndarray) -> float:
+    def add_resistance(self, at: Deformed, v: np.ndarray, force: np.ndarray) -> float:
         """Add the force that resists the velocity; return the power taken [W]."""
         return 0.0
 
-    def add_resistance_tangent(self, at: Placed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
+    def add_resistance_tangent(self, at: Deformed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
         """Add scale × the derivative of the resisting force by the velocity [N·s/m]."""
 
-    def exerted(self, at: Placed, v: np.ndarray | None = None) -> np.ndarray:
+    def exerted(self, at: Deformed, v: np.ndarray | None = None) -> np.ndarray:
         """Return the item's forces on the masses (n, 3) [N]; v: velocity (n, 3) [m/s] in motion."""
         force = np.zeros_like(at[0])
         self.add_force(at, force)
@@ -61,6 +61,6 @@ class LatticeItem(Protocol):
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
         """Set the item's stiffness in motion, relative to the springs' highest squared frequency [1/s²]."""
 
-    def rounding(self, at: Placed) -> float:
+    def rounding(self, at: Deformed) -> float:
         """Return the norm [N] of the error of its forces by rounding of displacements."""
         return 0.0

@@ -88,7 +88,7 @@ class Lattice:
     per_area: np.ndarray | None = None
 
     @cached_property
-    def kept(self) -> np.ndarray | slice:
+    def present_cells(self) -> np.ndarray | slice:
         """Index of the present cells among all."""
         return slice(None) if self.present is None else np.flatnonzero(self.present)
 

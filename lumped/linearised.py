@@ -127,7 +127,7 @@ class Linear:
             squares, shapes = lowest_modes(self.stiffness, self.mass, count)
             if squares[0] > 0.0:
                 return squares, shapes
-        raise BadInput("the equilibrium is not stable: it has no oscillations to speak of")
+        raise BadInput("the equilibrium is not stable: it has no oscillations")
 
 
 def linearise(scene: AnyScene, calibration: Calibration | None = None, about: About = "deformed") -> Linear:

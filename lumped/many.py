@@ -92,10 +92,10 @@ def solve_many(
     sheet = Differentiable(scene, calibration, calibrate)
     counts = {len(values) for values in designs.values()}
     if len(counts) != 1:
-        raise BadInput(f"designs: {sorted(counts)} values: as many of each are needed")
+        raise BadInput(f"designs: {sorted(counts)} values: equal numbers of values are needed")
     start, count = sheet.solve({}), counts.pop()
     out, done = np.full((count, *start.shape), np.nan), np.zeros(count, dtype=bool)
-    together = designs.keys() <= {YOUNG, FORCES} and _plain(sheet)
+    linear = designs.keys() <= {YOUNG, FORCES} and _plain(sheet)
     workers = workers or os.cpu_count() or 1
 
     def solved(number: int) -> Status:
@@ -108,7 +108,7 @@ def solve_many(
         return path.status
 
     with one_blas_thread(), ThreadPoolExecutor(workers) as pool:
-        if together:
+        if linear:
             parts = [slice(*ends) for ends in _ends(count, workers)]
             list(pool.map(lambda part: _solve(sheet, start, designs, part, out, done), parts))
         return Designs(out, list(pool.map(solved, range(count))))
@@ -120,7 +120,7 @@ def _ends(count: int, parts: int) -> list[tuple[int, int]]:
 
 
 def _plain(sheet: Differentiable) -> bool:
-    """Whether a lattice has springs of the linear laws alone, dead loads and a small matrix."""
+    """Return whether a lattice has only springs of linear laws, only dead loads and a small matrix."""
     problem = sheet.problem
     others = problem.items or problem.assembly.coupling is not None or problem.loads.follow
     linear = problem.assembly.conservative and not problem.assembly.any_strain
@@ -136,19 +136,20 @@ def _solve(
     out: np.ndarray,
     done: np.ndarray,
 ) -> None:
-    """Set the displacements of a part of designs, and which are found."""
+    """Set the displacements of a part of designs, and whether each has converged."""
     problem, lattice = sheet.problem, sheet.problem.assembly.lattice
     links, layers, middle, _ = problem.assembly.springs
     base = sheet.base[YOUNG].ravel()
     young = np.asarray(designs.get(YOUNG, base[None].repeat(len(out), axis=0)), dtype=float)[part]
     factor = young.reshape(len(young), -1) / np.where(base > 0.0, base, 1.0)
     these = lattice.links_of(links.nodes)
-    each = stiffness_by_cells(lattice, sheet.calibration.constants)[:, these, 0]
-    k = np.ascontiguousarray(np.einsum("qm,bqm->bm", each, factor[:, lattice.links.cells[:, these]]))
-    kept = factor[:, np.arange(base.size)[lattice.kept]]
+    stiffness = stiffness_by_cells(lattice, sheet.calibration.constants)[:, these, 0]
+    k = np.ascontiguousarray(np.einsum("qm,bqm->bm", stiffness, factor[:, lattice.links.cells[:, these]]))
+    of_present = factor[:, np.arange(base.size)[lattice.present_cells]]
     constants = (family.constants for family in (layers, middle))  # type: ignore[attr-defined]
     of_cells = [
-        np.ascontiguousarray(np.tile(kept, (1, len(q) // kept.shape[1]))[:, :, None] * q) for q in constants
+        np.ascontiguousarray(np.tile(of_present, (1, len(q) // of_present.shape[1]))[:, :, None] * q)
+        for q in constants
     ]
     forces = np.asarray(designs.get(FORCES, np.zeros((len(out), *start.shape))), dtype=float)[part]
     loads = np.ascontiguousarray(forces + problem.loads.last_dead)
@@ -178,13 +179,13 @@ def correct(
     done: np.ndarray,
 ) -> None:
     """Set displacements (designs, n, 3) [m] in equilibrium under loads (designs, n, 3) [N] with links of
-    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), sought from
-    `start` with its factors, then with their own, and which are found; rounding [N/m]: of forces, over the
-    displacement."""
+    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), by
+    the factors of `start`, then by their own, and `done` where converged; rounding [N/m]: of forces, over
+    the displacement."""
     n = len(band.order)
     a, b, c = springs.links, springs.layers, springs.middle
     for d in range(len(k)):
-        own = SpringArrays(
+        arrays = SpringArrays(
             LinkArrays(a.nodes, a.offset, a.rest, k[d], a.slots),
             CellArrays(b.nodes, b.sides, b.rest, AreaAndStrains(layers[d]), b.slots),
             CellArrays(c.nodes, c.sides, c.rest, AreaAndStrains(middle[d]), c.slots),
@@ -194,22 +195,22 @@ def correct(
             springs.diagonal,
         )
         u, last, size = start.copy(), np.inf, np.sqrt(np.sum(loads[d] ** 2))
-        factors, own_ones, fresh = of_start, False, False
+        factors, own_factors, fresh = of_start, False, False
         for _ in range(STEPS):
-            rows = transposed_product(free, (loads[d] - all_families.force(u, own)[1]).ravel(), n)
-            left = np.sqrt(np.sum(rows * rows))
-            ended = left <= max(TOLERANCE * size, rounding * np.abs(u).max())
-            slow = not fresh and not left <= (0.1 if own_ones else 0.5) * last
-            if slow or (not own_ones and left <= NEAR * size) or (ended and not own_ones):
-                blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), own)
+            rows = transposed_product(free, (loads[d] - all_families.force(u, arrays)[1]).ravel(), n)
+            imbalance = np.sqrt(np.sum(rows * rows))
+            converged = imbalance <= max(TOLERANCE * size, rounding * np.abs(u).max())
+            slow = not fresh and not imbalance <= (0.1 if own_factors else 0.5) * last
+            if slow or (not own_factors and imbalance <= NEAR * size) or (converged and not own_factors):
+                blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), arrays)
                 factors = banded.stored(blocks, band)
                 if not banded.factor(factors, n, band.width):
                     break
-                own_ones = fresh = True
+                own_factors = fresh = True
             else:
                 fresh = False
-            if ended:  # stable, as the tangent nearest to it says
+            if converged:  # stable, as the tangent nearest to it says
                 out[d], done[d] = u, True
                 break
-            last = left
+            last = imbalance
             u += product(free, banded.solve_unrefined(factors, band.width, band.order, rows)).reshape(u.shape)

@@ -120,8 +120,8 @@ def shares_of_layers(scene: Scene, lattice: Lattice) -> np.ndarray:
     shares = 1.0 / len(heights) + centre * heights / (heights @ heights)
     if shares.min() <= 0.0:
         raise BadInput(
-            f"layer: their centre of mass is {1e3 * abs(centre):.3g} mm from the middle, and the lattice's "
-            f"layers {1e3 * heights.max():.3g} mm: no masses there balance so; the shell has such sheets"
+            f"layer: the centre of mass is {1e3 * abs(centre):.3g} mm from the middle, beyond the layers "
+            f"at {1e3 * heights.max():.3g} mm; choose the shell"
         )
     return np.asarray(shares)
 

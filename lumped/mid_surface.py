@@ -96,10 +96,10 @@ def _of_columns(lattice: Lattice, rows: np.ndarray, over: np.ndarray, shares: np
 
 
 def _near_rims(
-    lattice: Lattice, per_area: np.ndarray, own: np.ndarray, points: np.ndarray
+    lattice: Lattice, per_area: np.ndarray, cells: np.ndarray, points: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Lines and shares as `_of_columns` takes them, on a lattice with absent cells, of points in the cells
-    `own` (n, 2): the lines around them."""
+    """Return lines and weights as for `_of_columns`, on a lattice with absent cells, of points in the cells
+    `cells` (n, 2): the lines around them."""
     wide, around, (x, y) = np.pad(per_area, 1), _around(per_area), lattice.lines
     reach = REACH + 1
 
@@ -119,8 +119,8 @@ def _near_rims(
 
     lines = np.arange(-reach, reach + 2)
     share = np.zeros((len(points), len(lines), len(lines)))
-    for row, column in set(map(tuple, own.tolist())):
-        which = np.flatnonzero((own == (row, column)).all(axis=1))
+    for row, column in set(map(tuple, cells.tolist())):
+        which = np.flatnonzero((cells == (row, column)).all(axis=1))
         at = places(points[which], row, column)
         blend = np.stack([np.maximum(0.0, -at), 1.0 - np.abs(at), np.maximum(0.0, at)])
         weight = blend[:, None, :, 1] * blend[None, :, :, 0]
@@ -128,15 +128,15 @@ def _near_rims(
         weight /= weight.sum(axis=(0, 1))
         for j, i in np.argwhere(weight.any(axis=2)).tolist():
             rows, over, fit = nearest(row + j - 1, column + i - 1)
-            found = _terms(places(points[which], row + j - 1, column + i - 1)) @ fit
-            share[which[:, None], rows - row + reach, over - column + reach] += weight[j, i, :, None] * found
-    rows, over = (np.clip(own[:, axis, None] + lines, 0, per_area.shape[axis]) for axis in (0, 1))
+            values = _terms(places(points[which], row + j - 1, column + i - 1)) @ fit
+            share[which[:, None], rows - row + reach, over - column + reach] += weight[j, i, :, None] * values
+    rows, over = (np.clip(cells[:, axis, None] + lines, 0, per_area.shape[axis]) for axis in (0, 1))
     return rows, over, share
 
 
 def _own_cells(lattice: Lattice, wide: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Rows and columns (n, 2) of the cells present in which, or on whose rims, plan points (n, 2) [m] lie;
-    wide: mass per area of the cells, padded by zeros. Raises BadInput where there is none."""
+    """Return row and column (n, 2) of a present cell that contains each plan point (n, 2) [m], inside or on
+    its rim; wide: mass per area of the cells, padded by zeros. Raises BadInput for a point without one."""
     (column, x), (row, y) = (lines.index(points[:, axis]) for axis, lines in enumerate(lattice.lines))
     over, up = (np.where(at < ON_LINE, -1, np.where(at > 1.0 - ON_LINE, 1, 0)) for at in (x, y))
     beside = [np.stack([row + j * up, column + i * over], axis=1) for j, i in product((0, 1), (0, 1))]
@@ -160,12 +160,12 @@ def _corners(per_area: np.ndarray, row: int, column: int) -> tuple[np.ndarray, n
 
 
 def _around(cells: np.ndarray) -> np.ndarray:
-    """The mean of the cells around each crossing of lines, (rows + 1, columns + 1)."""
+    """Return the mean of the cells around each crossing of lines, (rows + 1, columns + 1)."""
     wide = np.pad(cells, 1).astype(float)
     return np.asarray(0.25 * (wide[1:, 1:] + wide[1:, :-1] + wide[:-1, 1:] + wide[:-1, :-1]))
 
 
 def _terms(at: np.ndarray) -> np.ndarray:
-    """The terms of a quadric at places (n, 2)."""
+    """Return the terms of a quadric at plan points (n, 2)."""
     x, y = at.T
     return np.stack([np.ones_like(x), x, y, x * y, x * x, y * y], axis=1)

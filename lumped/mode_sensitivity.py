@@ -51,7 +51,7 @@ class ModeGradient(Mapping[str, Any]):
 
     def __getitem__(self, name: str) -> Any:
         if name in INERT:
-            raise BadInput(f"{name}: none of a frequency; the scene's density and thickness have one")
+            raise BadInput(f"{name}: frequencies have no derivative by it; take density or thickness")
         found = sum(by * term[name] for term, by in self._terms)
         if not name.startswith(FIELD):
             (low, high), over = self._of.base.sides(name)

@@ -122,8 +122,8 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     layer, gap = (turned[..., of] @ squares[..., of, :] for of in (slice(LEVEL), slice(LEVEL, None)))
     in_layer = _of_links(layer) + _in_plane(springs, "area")
     if springs.rubber:
-        each = np.broadcast_to(sides, (*shape, 2)).reshape(-1, 2)
-        shapes = each**2, each.prod(axis=1), np.zeros(len(each))
+        cell_sides = np.broadcast_to(sides, (*shape, 2)).reshape(-1, 2)
+        shapes = cell_sides**2, cell_sides.prod(axis=1), np.zeros(len(cell_sides))
         strains, _ = of_rubber(springs, *shapes, lambda values: np.broadcast_to(values, shape).ravel())
         in_layer += _form(strains[:, 1:].reshape(*shape, 3), strains[:, 0].reshape(shape))
     upright = gap[..., 2, 2, None, None]
@@ -169,12 +169,12 @@ def _in_plane(springs: Springs, cells: str) -> np.ndarray:
     return form
 
 
-def _form(own: np.ndarray, area: np.ndarray) -> np.ndarray:
+def _form(diagonal: np.ndarray, area: np.ndarray) -> np.ndarray:
     """Return the form (…, 3, 3) of strain springs (…, 3) and area springs (…)."""
-    form = np.zeros((*own.shape, 3))
+    form = np.zeros((*diagonal.shape, 3))
     form[..., :2, :2] = area[..., None, None]
     for number in range(3):
-        form[..., number, number] += own[..., number]
+        form[..., number, number] += diagonal[..., number]
     return form
 
 

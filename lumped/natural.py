@@ -156,7 +156,7 @@ def _of_cells(lattice: Lattice, family: Family) -> _Natural | None:
         shares = shares / shares.sum(axis=1, keepdims=True)
     elif isinstance(family, SpringCells) and family.law is AREA_AND_STRAINS and len(family):
         sides = family.sides[:, [[0, 1, 0], [0, 1, 1]]].swapaxes(0, 1)
-        cells = np.arange(lattice.cell_areas.size)[lattice.kept]
+        cells = np.arange(lattice.cell_areas.size)[lattice.present_cells]
         cells = np.tile(cells, len(family) // len(cells))[:, None]
         shares = np.ones(cells.shape)
     else:

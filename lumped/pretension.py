@@ -25,17 +25,18 @@ from sheetbench.scenes.objects.natural import Natural
 def stretched(scene: Scene, assembly: Assembly) -> Scene:
     """Return the scene with the natural strain that gives its pretension in a lattice without a natural
     state."""
-    lattice, areas = assembly.lattice, assembly.lattice.cell_areas
-    if assembly.cells is not None:
-        areas = areas * assembly.cells.bending[..., 0, 0] / CellSection.of(of_sheet(scene)).bending[..., 0, 0]
-    area, plan, size = areas.sum(), lattice.positions[:, :2], len(lattice.positions)
-    thicker = np.zeros((size if assembly.coupling is None else assembly.coupling.size, 3))
-    thicker[:size, 2] = height = lattice.positions[:, 2]
-    shape = tuple(len(line.widths) for line in reversed(lattice.lines))
 
     def tension(strain: np.ndarray) -> np.ndarray:
         from scipy.optimize import newton
 
+        lattice, areas = assembly.lattice, assembly.lattice.cell_areas
+        if assembly.cells is not None:
+            of_cells, whole = assembly.cells.bending, CellSection.of(of_sheet(scene)).bending
+            areas = areas * of_cells[..., 0, 0] / whole[..., 0, 0]
+        area, plan, size = areas.sum(), lattice.positions[:, :2], len(lattice.positions)
+        thicker = np.zeros((size if assembly.coupling is None else assembly.coupling.size, 3))
+        thicker[:size, 2] = height = lattice.positions[:, 2]
+        shape = tuple(len(line.widths) for line in reversed(lattice.lines))
         source, grown = Source("natural", Natural(), strain, np.zeros(3)), copy(assembly)
         grown.grow(NaturalState([source], shape, lambda _: np.ones(shape)))
 

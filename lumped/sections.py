@@ -77,7 +77,7 @@ class CellSection:
         membrane, bending = (k[..., None, None] * unit for k in (stretching, rigidity))
         return cls(membrane, bending, shear[..., None, None] * np.eye(2), 0.0 * membrane, density * h)
 
-    def each(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
+    def map(self, change: Callable[[np.ndarray], np.ndarray]) -> Self:
         """Return the section with a function applied to every array of PARTS."""
         parts: dict[str, Any] = {name: change(getattr(self, name)) for name in PARTS}
         return replace(self, **parts)
@@ -246,7 +246,7 @@ def _divisions(fine: np.ndarray, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _scaled(section: CellSection, factor: np.ndarray) -> CellSection:
-    return section.each(lambda part: part * factor.reshape(*factor.shape, *(1,) * (part.ndim - factor.ndim)))
+    return section.map(lambda part: part * factor.reshape(*factor.shape, *(1,) * (part.ndim - factor.ndim)))
 
 
 def _in_series(section: CellSection, axis: int, begin: np.ndarray, share: np.ndarray) -> CellSection:

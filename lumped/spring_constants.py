@@ -229,17 +229,17 @@ def of_rubber(
     squares: np.ndarray,
     area: np.ndarray,
     twist: np.ndarray,
-    chosen: Callable[[np.ndarray], np.ndarray],
+    select: Callable[[np.ndarray], np.ndarray],
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the stiffness (c, 4) [N/m] of small strains of a layer's plan cells that are rubber membranes,
     their axial links' stiffness subtracted, and the other parameters (c, 9) of rubber cells in
     `lumped.springs.laws`. squares: of the sides, (c, 2) [m²]; area: (c,) [m²]; twist: (c,) [N/m] that edges
-    and rims add to the shear; chosen: selects the cells' values (c,) of a constant (rows, columns)."""
-    shear, volume, c01, c20, c30, limit = (chosen(springs.along(name, 0)) for name in RUBBER_CONSTANTS)
+    and rims add to the shear; select: selects the cells' values (c,) of a constant (rows, columns)."""
+    shear, volume, c01, c20, c30, limit = (select(springs.along(name, 0)) for name in RUBBER_CONSTANTS)
     c10 = 0.5 * shear
     stiffening = 2.0 * c20 + np.divide(c10, limit, out=np.zeros_like(limit), where=limit > 0.0)
     modulus, lame = shear + 2.0 * c01, volume + 4.0 * (c01 + stiffening)
-    axial = np.stack([chosen(springs.along("axial", axis)) for axis in (0, 1)])
+    axial = np.stack([select(springs.along("axial", axis)) for axis in (0, 1)])
     stretch = 2.0 * modulus - axial * squares.T / area
     ratio = np.divide(lame, modulus, out=np.zeros_like(lame), where=modulus > 0.0)
     stiffness = np.column_stack([2.0 * modulus * ratio / (2.0 + ratio), *stretch, modulus + twist])
@@ -304,5 +304,5 @@ def require_cells(table: SpringSet, grid: Grid, whose: str) -> None:
                 key = f"{name}.{axis}" if axis else name
                 cells = " rows of ".join(map(str, shape))
                 raise BadInput(
-                    f"{whose}springs.{key}: {cells} cells are wanted on {grid[0]}x{grid[1]} masses"
+                    f"{whose}springs.{key}: {cells} cells are needed on {grid[0]}x{grid[1]} masses"
                 )

@@ -73,13 +73,13 @@ class StateSpace:
         if (order is None) == (tolerance is None):
             raise BadInput("balanced: give an order or a tolerance")
         if order is not None and not 1 <= order <= size:
-            raise BadInput(f"order = {order}: from 1 to the {size} states that there are")
+            raise BadInput(f"order = {order}: from 1 to {size} states")
         if tolerance is not None and not tolerance > 0.0:
             raise BadInput(f"tolerance = {tolerance:g}: above 0")
         if size > MOST:
             raise BadInput(f"{size} states: balanced up to {MOST}; take fewer modes or masses")
         if self.poles.real.max() > -1e-12 * np.abs(self.poles).max():
-            raise BadInput("balanced: a motion is not damped; give a damping_time or damping_rate")
+            raise BadInput("balanced: some motion is not damped; give a damping_time or damping_rate")
         with one_blas_thread():
             return _balanced(self, order, tolerance)
 
@@ -148,7 +148,7 @@ def _balanced(space: StateSpace, order: int | None, tolerance: float | None) -> 
         np.sort(np.abs(np.linalg.eigvals(small_a))) / (2.0 * np.pi),
     )
     if small.poles.real.max() >= 0.0:
-        raise BadInput(f"order = {order}: parts two states of equal weight; take {order + 1}")
+        raise BadInput(f"order = {order}: separates two states of equal weight; take {order + 1}")
     return Balanced(small, hankel, scale)
 
 

@@ -162,7 +162,7 @@ def _constrain(
         for edge in driven:
             masses = holders[edge.edge][0].ravel()
             rest = lattice.positions[masses]
-            g[masses] = edge.placed(rest[:, :2], load_factor).lifted(rest[:, 2])
+            g[masses] = edge.displaced(rest[:, :2], load_factor).lifted(rest[:, 2])
         if coupling is not None:
             coupling.follow(g)
         return g

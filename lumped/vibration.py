@@ -63,15 +63,15 @@ class Modes(NaturalModes):
         number: from 1. Raises Impossible where two frequencies coincide, for the last mode, and about a flat
         sheet with a natural state."""
         if self.gradient_of is None:
-            raise Impossible("derivatives of frequencies: not about a flat sheet with a natural state")
+            raise Impossible("derivatives of frequencies: not for a flat sheet with a natural state")
         if not 1 <= number < len(self.frequencies):
-            raise Impossible(f"mode {number}: its neighbours must be known: 1 to {len(self.frequencies) - 1}")
+            raise Impossible(
+                f"mode {number}: derivatives need the next mode: choose 1 to {len(self.frequencies) - 1}"
+            )
         near = np.abs(self.frequencies / self.frequencies[number - 1] - 1.0) <= COINCIDENT
         if near.sum() > 1:
             which = " and ".join(str(n + 1) for n in np.flatnonzero(near))
-            raise Impossible(
-                f"modes {which} coincide: each of their frequencies has no derivative of its own"
-            )
+            raise Impossible(f"modes {which} coincide: a single frequency of them has no derivative")
         return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
@@ -143,8 +143,7 @@ def modes(
     if about == "deformed":
         if scene.actuators or problem.loads.follow or not problem.conservative:
             raise BadInput(
-                "--about = deformed: actuators are no part of modes, and pressure, edge moments and springs "
-                "of a per-direction law have none"
+                "--about = deformed: not with actuators, pressure, edge moments and per-direction springs"
             )
         at = stable_equilibrium(problem).u
     rigid = len(free_rigid_motions(scene)) if about == "flat" else 0  # an equilibrium has none

@@ -55,7 +55,7 @@ CALIBRATIONS: dict[str, Method] = {
 # methods that match the moduli of every cell: answers converge to the sheet's with smaller cells
 EXTRAPOLATED = tuple(name for name, method in CALIBRATIONS.items() if method.takes == CELL_BY_CELL)
 
-MASSES = {
+MASS_DISTRIBUTIONS = {
     "higher-order": "inertia of edges corrected, coupled between neighbours",
     "tributary": "the area around each node, as for its weight",
     "gregory": "Gregory's end-corrected weights, as in motion",
@@ -92,7 +92,6 @@ FUNCTIONS = (  # the verbs that are functions too
 )
 VERBS = (*FUNCTIONS, "live", "study")
 SUITES = ("statics", "motion", "modes", "curves", "natural", "contact")  # of the reference set
-REPRODUCED = ("errors", "tables", "settling", "nearest")  # parts of the published study
 VARIED = {  # of a scene's stability
     "load": "loads, times the scene's",
     "slenderness": "thickness, times the scene's",

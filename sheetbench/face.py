@@ -33,7 +33,7 @@ def study(name: str, **options: Any) -> Any:
     Parameters
     ----------
     name : str
-        "reproduction" or, in a checkout, a folder of `studies`.
+        Name of a study, as `sheetbench study` lists them; studies are in a checkout of the repository.
     **options
         The study's own options, listed by `sheetbench study NAME --help`.
 
@@ -45,7 +45,7 @@ def study(name: str, **options: Any) -> Any:
     Raises
     ------
     BadInput
-        An unknown study or option.
+        An unknown study or option, or no checkout.
     """
     return as_function(name, module_of(str(name)).command)(**options)
 

@@ -28,11 +28,11 @@ REMEDIES = {
     errno.EFBIG: "raise the limit, or write elsewhere",
     **dict.fromkeys((errno.EACCES, errno.EPERM), f"make it writable, or {ELSEWHERE}"),
     errno.EROFS: ELSEWHERE,
-    errno.EISDIR: "a folder stands there: move it away",
+    errno.EISDIR: "a folder is there: move it away",
     errno.ENAMETOOLONG: "choose a shorter one",
-    errno.EEXIST: f"a file stands there: {ELSEWHERE}",
+    errno.EEXIST: f"a file is there: {ELSEWHERE}",
     errno.ENOTDIR: f"a part of the path is a file: {ELSEWHERE}",
-    errno.ELOOP: "a link stands there: remove it",
+    errno.ELOOP: "a link is there: remove it",
     errno.ENOENT: f"the folder is gone: {AGAIN}",
     errno.EIO: f"the disk is at fault: {ELSEWHERE}",
     **dict.fromkeys((errno.ENOLCK, errno.ENOTSUP), f"this file system has no locks: {ELSEWHERE}"),
@@ -52,7 +52,7 @@ def writing(path: Path) -> Iterator[None]:
 
 
 @contextmanager
-def whole(path: Path) -> Iterator[Path]:
+def replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary path with the suffix of `path`; the file there replaces `path` at the end."""
     partial = path.with_name(f".{path.stem}.{os.getpid()}.partial{path.suffix}")
     with writing(path):
@@ -77,7 +77,7 @@ def require_file(path: Path) -> None:
             return
     if not stat.S_ISREG(mode):
         kind = next((name for of, name in KINDS if of(mode)), "device, pipe or socket")
-        raise BadInput(f"{path}: cannot be written, a {kind} stands there: choose another name, or remove it")
+        raise BadInput(f"{path}: cannot be written, a {kind} is there: choose another name, or remove it")
 
 
 @contextmanager
@@ -99,11 +99,11 @@ def only_writer(folder: Path) -> Iterator[None]:
         yield
 
 
-def _is_elsewhere(named: object, path: Path) -> bool:
+def _is_elsewhere(file: object, path: Path) -> bool:
     """Return whether an error names a file outside the folder of `path` and its parents."""
-    if not isinstance(named, str):
+    if not isinstance(file, str):
         return False
-    return Path(named).parent != path.parent and not path.is_relative_to(named)
+    return Path(file).parent != path.parent and not path.is_relative_to(file)
 
 
 def _remove_partial_files(path: Path) -> None:

@@ -94,7 +94,7 @@ def digest() -> str:
 
 
 class Announcement(event.Listener):  # type: ignore[misc]
-    """Log once in a process that kernels of this project are compiled."""
+    """A listener that logs once in a process that kernels of this project are compiled."""
 
     announced = False
 
@@ -111,7 +111,8 @@ class Announcement(event.Listener):  # type: ignore[misc]
 
 
 class StoppedClock(event.Listener):  # type: ignore[misc]
-    """Stop the solvers' clock while numba compiles or loads a kernel: both hold its compiler's lock."""
+    """A listener that stops the solvers' clock while numba compiles or loads a kernel: both hold its
+    compiler's lock."""
 
     def on_start(self, event: Any) -> None:
         """Stop the clock."""

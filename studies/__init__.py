@@ -10,6 +10,7 @@ STUDIES = {
     "master-curves": "the heavy cantilever and lateral buckling, without units: lattices and shells",
     "promises": "error bars, expected errors and advice beside the errors that there are",
     "reference-set": "the reference set of score, computed anew",
+    "reproduction": "Habibi et al. reproduced: errors, tables, settling run, the nearest sheets",
     "rubber": "laws and constants of measured rubbers, and the stretch from which a linear lattice is off",
     "stability": "where each model holds, degrades, refuses or breaks, on published and extreme scenes",
     "transfer": "every calibration on scenes that it was not made on, and on drawn sheets, by grid",

@@ -1,4 +1,4 @@
-"""Kept results, `results/NAME.json`, and the pages that the documentation's build makes of them.
+"""Stored results, `results/NAME.json`, and the pages that the documentation's build makes of them.
 
 A file has the words of a report, every table with its rows in SI units, and in `made` the date, version and
 machine of the measurement: `keep` writes it, `kept` returns the report again, whose `to_markdown()` is the

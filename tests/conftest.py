@@ -10,7 +10,7 @@ from matrix_options import scene_files
 from matrix_rows import check
 from verbs import few_runs, run_here, undraw
 
-from comparisons.sweep import here as table
+from comparisons.sweep import in_process as table
 from comparisons.sweep.campaign import campaign
 from sheetbench.answers import style
 from sheetbench.answers.solution import Solution

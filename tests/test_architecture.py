@@ -110,7 +110,7 @@ FLOORS = {  # of comparisons; CONTRIBUTING.md says what is in each room
     **dict.fromkeys(("models", "external", "pictures"), 0),
     **dict.fromkeys(("identification", "modes", "sweep"), 1),
     **dict.fromkeys(("codes", "comparison", "pages", "scoring", "stability"), 2),
-    **dict.fromkeys(("calibration", "reproduction", "tradeoff"), 3),
+    **dict.fromkeys(("calibration", "tradeoff"), 3),
     "live": 4,
     "cli": 5,
 }

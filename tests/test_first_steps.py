@@ -105,7 +105,7 @@ def test_new_asks_at_a_terminal(tmp_path):
 def test_what_new_assumes_and_a_misspelt_name_are_said(tmp_path, capsys):
     assert run("new", str(tmp_path / "strip.toml"), "--young", "1MPa") == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "Assumed, to be changed in it: side along x = 0.3 m" in said and "ρ = 1100 kg/m³" in said
+    assert "Assumed, to be changed in the file: side along x = 0.3 m" in said and "ρ = 1100 kg/m³" in said
     assert "E =" not in said and "clamped at x0" in said
     assert run("check", str(tmp_path / "striip.toml")) == 2
     assert f"did you mean {tmp_path / 'strip.toml'}?" in one_line(capsys)

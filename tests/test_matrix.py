@@ -11,7 +11,7 @@ from commands import run
 from matrix_options import GRIDS, OUTPUTS, SCENES, SPRINGS
 from matrix_rows import named, pairwise
 
-from sheetbench.choices import CALIBRATIONS, INTEGRATORS, MASSES, SUITES
+from sheetbench.choices import CALIBRATIONS, INTEGRATORS, MASS_DISTRIBUTIONS, SUITES
 
 OWN = SPRINGS[::2]  # state spaces have the others
 LITTLE = (("--json",), ("--out", "{folder}"), ())
@@ -42,7 +42,7 @@ VERBS: dict[str, list[tuple[tuple[str, ...], ...]]] = {
         SPRINGS[::3],
         EVERY_SCENE,
         ((), ("--about", "deformed")),
-        ((), *(("--masses", name) for name in MASSES)),
+        ((), *(("--masses", name) for name in MASS_DISTRIBUTIONS)),
         (
             ("--reference", "plate", "--elements", "2"),
             ("--reference", "shell", "--elements", "2x3"),

@@ -76,10 +76,8 @@ def calibrate(scene: Scene, lattice: Lattice, named: bool = True) -> lumped.Cali
     """
     for name, value in (("calibration", lattice.calibration), ("grading", lattice.grading)):
         if value == AUTO and not named:
-            raise BadInput(
-                f"{name} = auto: goes by the edges and load of a SCENE; name one, or another {name}"
-            )
-    model = resolve(scene, lattice, "springs", own=False)
+            raise BadInput(f"{name} = auto: needs the edges and load of a SCENE; give one, or another {name}")
+    model = resolve(scene, lattice, "springs", scene_springs=False)
     springs = model.calibrated([scene] if named else None)
     return replace(springs, remarks=(*choice_notes(model.settings), *springs.remarks))
 
@@ -104,27 +102,27 @@ def expected(scene: Scene, springs: lumped.Calibration) -> ExpectedError | None:
 
 @dataclass(frozen=True, repr=False)
 class SheetCalibration(Calibration):
-    """Springs for a scene's sheet; found: the calibration with its report; expected: their expected grid
-    error in the scene, if known; lattice: files for another code, and notes on features missing there."""
+    """Springs for a scene's sheet; calibration: with its report; expected: their expected grid error in the
+    scene, if known; lattice: files for another code, and notes on features missing there."""
 
-    found: Calibration = field(kw_only=True, repr=False)
+    calibration: Calibration = field(kw_only=True, repr=False)
     scene: Scene = field(kw_only=True)
     expected: ExpectedError | None = None
     lattice: tuple[dict[str, Write], list[str]] = field(default=({}, []), compare=False)
 
     def heading(self) -> tuple[str, str, str]:
-        return (*self.found.heading()[:2], sheet_in_words(self.scene.sheet, self.scene.material))
+        return (*self.calibration.heading()[:2], sheet_in_words(self.scene.sheet, self.scene.material))
 
     def document(self) -> dict[str, Any]:
         expected = {} if self.expected is None else {"expected_error": self.expected.as_dict()}
-        return self.found.document() | expected | damping.document(self.scene.material)
+        return self.calibration.document() | expected | damping.document(self.scene.material)
 
     def tables(self) -> tuple[Table, ...]:
-        return (*self.found.tables(), *damping.tables(self.scene.material))
+        return (*self.calibration.tables(), *damping.tables(self.scene.material))
 
     def notes(self) -> tuple[str, ...]:
         expected = () if self.expected is None else (f"in this scene: {self.expected}",)
-        return (*self.found.notes(), *expected, *damping.notes(self.scene.material), *self.lattice[1])
+        return (*self.calibration.notes(), *expected, *damping.notes(self.scene.material), *self.lattice[1])
 
     def files(self) -> dict[str, Write]:
         return {"springs.toml": partial(write_text, text=to_toml(self)), **self.lattice[0]}

@@ -94,14 +94,14 @@ def main(arguments: list[str] | None = None) -> None:
             raise SystemExit(BAD_INPUT)
     if arguments == sys.argv[1:]:
         startup.begin()
-    if arguments in (["--version"], ["-V"]):  # typer would import pydantic to read the flag
-        _print_version()
-        raise SystemExit(0)
-    verbs = tuple(arguments[:1]) if arguments[:1] and arguments[0] in VERBS else VERBS  # one loads faster
-    command = verb_group(verbs, boxes=get_terminal_size().columns >= BOXES)
     with interruption.heeded(last), messages.in_lines():
         try:
             try:
+                if arguments in (["--version"], ["-V"]):  # typer would import pydantic to read the flag
+                    _print_version()
+                    raise SystemExit(0)
+                verbs = tuple(arguments[:1]) if {*arguments[:1]} & {*VERBS} else VERBS  # one loads faster
+                command = verb_group(verbs, boxes=get_terminal_size().columns >= BOXES)
                 status = command(args=arguments, prog_name="sheetbench", standalone_mode=False)
                 raise SystemExit(status or 0)
             finally:

@@ -118,4 +118,4 @@ def _single(name: str, value: Any, numbers: bool = True) -> Any:
         return value
     from sheetbench.errors import BadInput
 
-    raise BadInput(f"{name} = {reprlib.repr(value)}: a {type(value).__name__} is not taken")
+    raise BadInput(f"{name} = {reprlib.repr(value)}: a {type(value).__name__} is not accepted")

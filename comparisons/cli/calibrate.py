@@ -153,5 +153,7 @@ def command(
         files: tuple[dict[str, Write], list[str]] = ({}, [])
         if for_ is not None:
             files = exchange.lattice_files(loaded, springs, for_, precision or "double")
-        answer = SheetCalibration(**values, found=springs, scene=loaded, expected=estimate, lattice=files)
+        answer = SheetCalibration(
+            **values, calibration=springs, scene=loaded, expected=estimate, lattice=files
+        )
         return out.show(answer, instead=to_toml(springs) + damping.to_toml(material) if toml else None)

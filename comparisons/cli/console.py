@@ -71,10 +71,10 @@ def _in_notebook() -> Iterator[Callable[[object], None]]:
 
     handle, due = None, monotonic() + REFRESHED
 
-    def change(what: object) -> None:
+    def change(work: object) -> None:
         nonlocal handle, due
         if monotonic() >= due:
-            text, due = Text(terminal(str(what)), style="dim"), monotonic() + REFRESHED
+            text, due = Text(terminal(str(work)), style="dim"), monotonic() + REFRESHED
             if handle is None:
                 handle = display(text, display_id=True)
             else:
@@ -84,7 +84,7 @@ def _in_notebook() -> Iterator[Callable[[object], None]]:
         yield change
     finally:
         if handle is not None:
-            handle.update({"text/plain": ""}, raw=True)
+            handle.update({"text/plain": "", "text/html": ""}, raw=True)
 
 
 def tell(text: str) -> None:

@@ -50,7 +50,7 @@ def heeded(last: bool = False) -> Iterator[None]:
         yield
         return
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, _once)
+        signal.signal(signal.SIGINT, _first_interrupt)
     read_end, write_end = os.pipe()
     os.set_blocking(write_end, False)
     previous = signal.set_wakeup_fd(write_end, warn_on_full_buffer=False)
@@ -62,11 +62,11 @@ def heeded(last: bool = False) -> Iterator[None]:
         done.set()
         signal.set_wakeup_fd(previous)
         os.close(write_end)
-        if signal.getsignal(signal.SIGINT) is _once:  # no interrupt has occurred
+        if signal.getsignal(signal.SIGINT) is _first_interrupt:  # no interrupt has occurred
             signal.signal(signal.SIGINT, signal.SIG_IGN if last else signal.default_int_handler)
 
 
-def _once(number: int, frame: object) -> None:
+def _first_interrupt(number: int, frame: object) -> None:
     """Raise KeyboardInterrupt once, and ignore further signals, which would interrupt the clean-up."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     raise KeyboardInterrupt

@@ -39,8 +39,8 @@ def command(
 
     Args:
         count (N): Number of modes, lowest first.
-        masses (NAME): How the lattice's mass is lumped: {MASSES}. Default: higher-order, or the masses that
-            springs were fitted with.
+        masses (NAME): Lumping of the lattice's mass: {MASS_DISTRIBUTIONS}. Default: higher-order, or the
+            masses that springs were fitted with.
         reference (MODELS): {REFERENCES}. Default: {REFERENCE}.
         about (flat|deformed): About the flat, stress-free sheet, or its equilibrium under its loads (lattice
             and shell). Default: flat; deformed with --state-space.

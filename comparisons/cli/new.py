@@ -78,7 +78,7 @@ def command(
     assumed = [f"{NAMES[key]} = {value:g} {UNITS[key]}".rstrip() for key, value in defaults.items()]
     assumed += [] if clamped else ["clamped at x0"]
     if assumed:
-        console.note(f"Assumed, to be changed in it: {', '.join(assumed)}; weight along −z.")
+        console.note(f"Assumed, to be changed in the file: {', '.join(assumed)}; weight along −z.")
     console.note(f"Next:  sheetbench check {file}")
     return file
 

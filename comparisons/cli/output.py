@@ -201,11 +201,11 @@ class OutputOptions(Group):
         scene: Scene | None = None,
         about: Mapping[str, Any] | None = None,
         variant: Mapping[str, Any] | None = None,
-        alone: bool = False,
+        locked: bool = False,
     ) -> Iterator[Output]:
         """Open the output of a verb for its answer.
 
-        scene, or about: subject of the answer; variant: options that determine its files; alone: whether to
+        scene, or about: subject of the answer; variant: options that determine its files; locked: whether to
         lock the folder against other processes (campaigns do this themselves). Raises BadInput for a folder
         that cannot be made or holds unrelated files. A NoEquilibrium in the block stops the command.
         """
@@ -224,7 +224,7 @@ class OutputOptions(Group):
                 from sheetbench.answers import files
                 from sheetbench.files import only_writer
 
-                if alone:
+                if locked:
                     stack.enter_context(only_writer(files.folder(self.out)))
                 folder = Folder(
                     self.out,

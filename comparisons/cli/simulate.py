@@ -52,7 +52,7 @@ def command(
     run = {"--integrator": integrator, "--step": step, "--every": every, "--error": error}
     run |= {f"--{name}": value for name, value in lattice.spec.settings.items()}
     keywords: dict[str, Any] = {} if error is None else {"error": error}
-    with output.open(scene=loaded, variant=run, alone=True) as out:
+    with output.open(scene=loaded, variant=run, locked=True) as out:
         history = simulate(
             model,
             duration,

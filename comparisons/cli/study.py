@@ -1,4 +1,4 @@
-"""`sheetbench study NAME`: the reproduction of the published study, and in a checkout the studies there."""
+"""`sheetbench study NAME`: studies of the models, from a checkout of the repository."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ import typer
 CONTEXT = {"ignore_unknown_options": True, "help_option_names": []}  # options are the study's, help too
 CHECKOUT = Path(__file__).parents[2]
 LABORATORY = "studies"
-INSTALLED = {"reproduction": "Habibi et al. reproduced: errors, tables, settling run, the nearest sheets"}
 HELP = ("-h", "--help")
 
 
@@ -22,9 +21,9 @@ def command(
     options: list[str] | None = None,
     no_pictures: bool = False,
 ) -> None:
-    """Run a study: reproduction, and in a checkout the laboratory's.
+    """Run a study of the models, from a clone of the repository.
 
-    Without NAME the installed studies are listed.
+    Without NAME the studies are listed.
 
     Args:
         name (NAME, argument): Name of the study; without it, all are listed.
@@ -34,21 +33,21 @@ def command(
     from comparisons.cli import console
     from sheetbench.answers.table import Column, Table
 
-    studies = _studies()
     if name in HELP:
         print(context.get_help())
-    if name in (None, *HELP):
+        return
+    if name is None:
         columns = (Column("study"), Column("about", prose=True))
-        console.show(Table("Studies", columns, tuple(studies.items())))
+        console.show(Table("Studies", columns, tuple(_studies().items())))
         return
     from typer.main import get_command
 
     from comparisons.cli.verb import as_verb
 
-    module = module_of(str(name))
+    module = module_of(name)
     markup = getattr(context.find_root().command, "rich_markup_mode", None)  # None on narrow terminals
     app = typer.Typer(rich_markup_mode=markup, context_settings={"help_option_names": list(HELP)})
-    app.command(name)(as_verb(str(name), module.command))
+    app.command(name)(as_verb(name, module.command))
     given = [*(options or ()), *(["--no-pictures"] if no_pictures else ())]
     main: Any = get_command(app)
     status = main(args=given, prog_name=f"sheetbench study {name}", standalone_mode=False)
@@ -58,24 +57,20 @@ def command(
 
 def module_of(name: str) -> ModuleType:
     """Return the module with the `command` of a study. Raises BadInput for an unknown study."""
-    from sheetbench.errors import BadInput, require_choice
+    from sheetbench.errors import require_choice
 
-    studies = _studies()
-    if name not in studies and not _in_checkout():
-        raise BadInput(
-            f"study {name}: choose from {', '.join(studies)}; others need a clone of the repository: run "
-            "'make install' there, then .venv/bin/sheetbench study NAME"
-        )
-    require_choice("study", name, studies)
-    path = f"{LABORATORY}.{name.replace('-', '_')}.command"
-    return import_module(f"comparisons.cli.{name}" if name in INSTALLED else path)
-
-
-def _in_checkout() -> bool:
-    """Return whether the packages are in a checkout of the repository."""
-    return (CHECKOUT / LABORATORY / "__init__.py").is_file()
+    require_choice("study", name, _studies())
+    return import_module(f"{LABORATORY}.{name.replace('-', '_')}.command")
 
 
 def _studies() -> dict[str, str]:
-    """Return the available studies with their descriptions."""
-    return {**INSTALLED, **(import_module(LABORATORY).STUDIES if _in_checkout() else {})}
+    """Return the studies with their descriptions. Raises BadInput outside a checkout of the repository."""
+    from sheetbench.errors import BadInput
+
+    if not (CHECKOUT / LABORATORY / "__init__.py").is_file():
+        raise BadInput(
+            "study: studies are not installed; in a clone of the repository run 'make install', then "
+            ".venv/bin/sheetbench study NAME"
+        )
+    studies: dict[str, str] = import_module(LABORATORY).STUDIES
+    return studies

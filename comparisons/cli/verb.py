@@ -252,7 +252,7 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
 
     metavars = {name: words.metavar for name, words in declared.words.items()}
     accepted = (in_python(p, metavars.get(p.name)) for p in parameters if p.name not in TERMINAL)
-    own = Signature(sorted(accepted, key=order), return_annotation=declared.signature.return_annotation)
+    api = Signature(sorted(accepted, key=order), return_annotation=declared.signature.return_annotation)
     converters = {p.name: conversion(p, declared.separators.get(p.name)) for p in declared.parameters()}
 
     @wraps(command)
@@ -262,16 +262,16 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
         from sheetbench.scenes import Scene
         from sheetbench.scenes.meaning.plausibility import warn_of_slips
 
-        if "lumped" in named and "grid" in own.parameters:  # one option, as on the command line
+        if "lumped" in named and "grid" in api.parameters:  # one option, as on the command line
             if "grid" in named:
-                raise WrongArgument(f"{name}: lumped and grid are one; give one of them")
+                raise WrongArgument(f"{name}: lumped and grid are the same option; give one of them")
             named["grid"] = named.pop("lumped")
         try:
-            bound = own.bind(*values, **named)
+            bound = api.bind(*values, **named)
         except TypeError as error:
-            wrong = next((key for key in named if key not in own.parameters), "")
-            hint = "".join(f"; did you mean {key}?" for key in get_close_matches(wrong, own.parameters, 1))
-            raise WrongArgument(f"{name}: {error}; it has {', '.join(own.parameters)}{hint}") from None
+            wrong = next((key for key in named if key not in api.parameters), "")
+            hint = "".join(f"; did you mean {key}?" for key in get_close_matches(wrong, api.parameters, 1))
+            raise WrongArgument(f"{name}: {error}; it has {', '.join(api.parameters)}{hint}") from None
         bound.apply_defaults()
         arguments = dict(bound.arguments)
         scenes = [value for value in arguments.values() if isinstance(value, Scene)]
@@ -298,9 +298,9 @@ def as_function(name: str, command: Command) -> Callable[..., Any]:
             error.args = (OPTIONS.sub(_in_python, str(error)),)
             raise
 
-    run.__signature__ = own  # type: ignore[attr-defined]
-    run.__doc__ = "\n".join([declared.prose, "", *_sections(own, declared.words), ""])
-    run.__annotations__ = {one.name: one.annotation for one in own.parameters.values()}
+    run.__signature__ = api  # type: ignore[attr-defined]
+    run.__doc__ = "\n".join([declared.prose, "", *_sections(api, declared.words), ""])
+    run.__annotations__ = {one.name: one.annotation for one in api.parameters.values()}
     return run
 
 
@@ -309,16 +309,16 @@ def _in_python(option: re.Match[str]) -> str:
     return f"{name}_" if name in ("for", "open") else name
 
 
-def _sections(own: Signature, words: Mapping[str, Words]) -> Iterable[str]:
+def _sections(api: Signature, words: Mapping[str, Words]) -> Iterable[str]:
     """Yield the lines of numpydoc's sections of a verb as a function."""
     yield from ("Parameters", "----------")
-    for name, parameter in own.parameters.items():
+    for name, parameter in api.parameters.items():
         text = re.sub(
             r"--([a-z][a-z-]*)", _in_python, words.get(name, Words(WITHOUT_WORDS.get(name, ""))).text
         )
         yield f"{name} : {parameter.annotation}"
         yield f"    {text[:1].upper()}{text[1:].rstrip('.')}."
-    kinds = dict.fromkeys(re.findall(r"\b[A-Z]\w+", str(own.return_annotation).replace("Annotated", "")))
+    kinds = dict.fromkeys(re.findall(r"\b[A-Z]\w+", str(api.return_annotation).replace("Annotated", "")))
     file = "The file that was written." if "Path" in kinds else "The answer, with its tables and pictures."
     yield from ("", "Returns", "-------", " or ".join(kinds), f"    {file}")
     yield from ("", "Raises", "------", "BadInput", "    An argument that cannot be used as given.")

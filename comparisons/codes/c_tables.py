@@ -27,11 +27,11 @@ class Tables:
         text += "" if set(text) & set(".en") else ".0"
         return text if self.real == "double" else text + "f"
 
-    def values(self, values: Any, whole: bool) -> str:
+    def values(self, values: Any, integers: bool) -> str:
         """Return an initialiser."""
         if np.ndim(values):
-            return "{" + ",".join(self.values(each, whole) for each in values) + "}"
-        return str(int(values)) if whole else self.number(values)
+            return "{" + ",".join(self.values(each, integers) for each in values) + "}"
+        return str(int(values)) if integers else self.number(values)
 
     def add(self, name: str, values: Any, kind: str | None = None, storage: str = "static ") -> None:
         """Add a table; kind: of whole numbers, the smallest that holds them where it is "" ."""

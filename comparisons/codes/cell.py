@@ -104,26 +104,27 @@ class Cell:
         return float(abs(np.linalg.det(self.periods)))
 
     def at(self, places: tuple[Place, ...]) -> np.ndarray:
-        """The positions (n, 3) of places [m]."""
+        """Return the positions (n, 3) of places [m]."""
         shift = np.array([[i, j] for _, i, j in places]) @ self.periods
         return self.nodes[[node for node, _, _ in places]] + np.column_stack([shift, np.zeros(len(places))])
 
     def units(self) -> dict[str, str]:
-        """The coefficients that the cell has, with their units."""
+        """Return the cell's coefficients with their units."""
         membrane = {"lambda_h": "N/m", "mu_h": "N/m"} if self.triangles else {}
         hinge = {"hinge": HINGE_UNITS[self.hinge]} if self.hinge else {}
         solid = {"lambda": "Pa", "mu": "Pa"} if self.bricks else {}
         return membrane | hinge | {name: "N/m" for _, _, name in self.springs} | solid
 
     def elements(self) -> list[Element]:
-        """The elements that count once a cell."""
+        """Return the elements, those shared with a neighbour once."""
         triangles = [Element(t, _triangle(self.at(t))) for t in self.triangles]
         springs = [Element((a, b), {name: _spring(self.at((a, b)))}) for a, b, name in self.springs]
         hinges = [Element(p, {"hinge": _hinge(self.at(p), HINGES[self.hinge])}) for p in self._hinges()]
         return triangles + springs + hinges + [Element(b, _brick(self.at(b))) for b in self.bricks]
 
     def _hinges(self) -> list[tuple[Place, ...]]:
-        """The ends of each shared edge and the corners opposite it, once a cell; none without hinges."""
+        """Return the ends of each shared edge and the corners opposite it, each edge once; none without
+        hinges."""
         if not self.hinge:
             return []
         sides: dict[tuple[Place, ...], list[Place]] = {}
@@ -140,7 +141,7 @@ class Cell:
 
 
 def from_toml(path: Path) -> Cell:
-    """A cell of a file, with lengths in metres. Raises BadInput with the file and the fault."""
+    """Return the cell of a file, with lengths in metres. Raises BadInput with the file and the fault."""
     try:
         data: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
         if unknown := set(data) - KEYS:
@@ -153,7 +154,7 @@ def from_toml(path: Path) -> Cell:
         name, hinge = data.get("name", path.stem), data.get("hinge", "")
         return Cell(name, periods, nodes, triangles, hinge, springs, bricks)
     except (OSError, tomllib.TOMLDecodeError, KeyError, ValueError, TypeError, IndexError) as error:
-        raise BadInput(f"{path}: is no cell: {foreign(error)}") from None
+        raise BadInput(f"{path}: not a cell: {foreign(error)}") from None
 
 
 def _moved(place: Place, origin: Place) -> Place:
@@ -172,7 +173,7 @@ def _spring(ends: np.ndarray) -> np.ndarray:
 
 
 def _triangle(corners: np.ndarray) -> dict[str, np.ndarray]:
-    """λ (∇·u)² + 2 μ e:e over the area; corners at one height."""
+    """Return the matrices of λ (∇·u)² + 2 μ e:e over the area; corners at one height."""
     inverse = np.linalg.inv((corners[1:, :2] - corners[0, :2]).T)
     slopes = np.vstack([-inverse.sum(axis=0), inverse])  # (corner, x or y)
     strain = np.zeros((3, 9))  # xx, yy, 2xy
@@ -185,7 +186,7 @@ def _triangle(corners: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _brick(corners: np.ndarray) -> dict[str, np.ndarray]:
-    """λ (∇·u)² + 2 μ e:e over the volume, at 2 × 2 × 2 points."""
+    """Return the matrices of λ (∇·u)² + 2 μ e:e over the volume, by 2 × 2 × 2 points."""
     volume, shear = np.zeros((24, 24)), np.zeros((24, 24))
     for point in CORNERS / 3.0**0.5:
         shares = (1.0 + CORNERS * point) / 2.0  # (corner, direction)
@@ -206,7 +207,8 @@ def _brick(corners: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _hinge(points: np.ndarray, weight: Callable[[float, float], float]) -> np.ndarray:
-    """points: both ends of the edge, then the corners opposite; θ is linear in their heights."""
+    """Return the matrix of a hinge's angle θ, linear in the heights of its points: both ends of the edge,
+    then the opposite corners."""
     start, end, *opposite = points
     length = float(np.linalg.norm(end - start))
     along = (end - start) / length
@@ -272,7 +274,7 @@ _Parts = tuple[np.ndarray, np.ndarray, tuple[tuple[Place, ...], ...]]
 
 
 def _squares(alternate: bool) -> _Parts:
-    """Squares with one diagonal; alternate: the other one in every second square."""
+    """Return squares with one diagonal; alternate: the other one in every second square."""
     side = 2 if alternate else 1
 
     def at(i: int, j: int) -> Place:
@@ -293,7 +295,7 @@ def _equilateral() -> _Parts:
 
 
 def _unstructured() -> _Parts:
-    """Delaunay triangles of points of a grid that are moved at random, alike on every machine."""
+    """Return Delaunay triangles of a grid's points moved at random, equal on every machine."""
     grid = np.array([[i, j] for i in range(SIDE) for j in range(SIDE)], dtype=float)
     points = (grid + JITTER * np.random.default_rng(SEED).uniform(-1.0, 1.0, grid.shape)) % SIDE
     tiles = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]

@@ -53,7 +53,7 @@ class CellInScene(Answer):
 
 
 def parameters_of(code: Code, coefficients: Numbers, scene: Scene) -> list[Parameter]:
-    """The parameters of a code for a scene's sheet."""
+    """Return the parameters of a code for a scene's sheet."""
     material = scene.material
     damping = {"damping_time": material.dashpot_time, "damping_rate": material.damping_rate}
     numbers = {"thickness": scene.sheet.thickness, "density": material.density, **damping, **coefficients}
@@ -62,7 +62,8 @@ def parameters_of(code: Code, coefficients: Numbers, scene: Scene) -> list[Param
 
 
 def undamped(code: Code, material: Material) -> str:
-    """Why a material's damping is not among a code's parameters, or "" where it is, or there is none."""
+    """Return the reason why a material's damping is not among a code's parameters, "" if it is or there is
+    none."""
     if material.branches.times:
         return f"{code.title} has no Maxwell branches"
     if material.dashpot_time and not code.dampers:
@@ -118,7 +119,7 @@ class CellModuli(CellInScene):
         return f"cell {self.cell.name}", size, " ".join(filter(None, (f"{sheet}.", self._describe_error())))
 
     def _describe_error(self) -> str:
-        """How far off the finest mesh is in the scene, in a sentence."""
+        """Return a sentence on the error of the finest mesh in the scene, "" without a scene."""
         if self.limit_error is None:
             return ""
         text = f"In {self.scene.name} even an infinitely fine mesh is {100 * self.limit_error:.1f} % off"

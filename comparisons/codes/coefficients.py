@@ -56,7 +56,7 @@ class Moduli:
         return bool(np.linalg.eigvalsh(form / np.outer(size, size))[0] > -STABLE)
 
     def named(self) -> dict[str, float]:
-        """The moduli by name, as A11 or D66."""
+        """Return the moduli by name, as A11 or D66."""
         pairs = {"11": (0, 0), "22": (1, 1), "12": (0, 1), "66": (2, 2), "16": (0, 2), "26": (1, 2)}
         forms = {"A": self.membrane, "D": self.bending}
         found = {kind + name: float(form[at]) for kind, form in forms.items() for name, at in pairs.items()}
@@ -66,7 +66,7 @@ class Moduli:
 
 
 def moduli_of(cell: Cell, coefficients: Mapping[str, float]) -> Moduli:
-    """Moduli of a sheet of this cell.
+    """Return the moduli of a sheet of this cell.
 
     coefficients: by the names of `cell.units()`, in those units. Raises KeyError where one is missing."""
     count = 3 * len(cell.nodes)
@@ -88,7 +88,8 @@ def moduli_of(cell: Cell, coefficients: Mapping[str, float]) -> Moduli:
 
 
 def _evaluate_field(point: np.ndarray) -> np.ndarray:
-    """Displacement (3,) of a point per unit of each strain, curvature and transverse shear (3, 8)."""
+    """Return the displacement (3,) of a point per unit of each strain, curvature and transverse shear, (3,
+    8)."""
     x, y, z = point
     plane = np.array([[x, 0.0, y / 2.0], [0.0, y, x / 2.0]])
     field = np.zeros((3, 8))
@@ -98,7 +99,7 @@ def _evaluate_field(point: np.ndarray) -> np.ndarray:
 
 
 def _constrain_motion(nodes: np.ndarray) -> np.ndarray:
-    """Rows: mean displacements and, of a cell that has thickness, mean turns of its normal."""
+    """Return rows of the mean displacements and, for a cell with thickness, mean turns of its normal."""
     heights = nodes[:, 2] - nodes[:, 2].mean()
     rows = [np.kron(np.ones(len(nodes)), axis) for axis in np.eye(3)]
     if np.any(heights):
@@ -115,8 +116,8 @@ TURNED = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0
 def nearest(
     cell: Cell, material: Material, thickness: float, fixed: Mapping[str, float] | None = None
 ) -> dict[str, float]:
-    """Coefficients, none negative, whose moduli come nearest to the sheet's; coefficients in `fixed` as they
-    are.
+    """Return the coefficients, none negative, with moduli nearest to the sheet's; coefficients in `fixed`
+    keep their values.
 
     Triangles have the membrane's λh = E ν h/(1 − ν²) and μh = E h/2(1 + ν), bricks Lamé's constants. The
     others are found by least squares over A and D, each over its 11, in a norm that no turn of the axes
@@ -156,7 +157,7 @@ def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
 
 
 def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
-    """`limit_error` of any moduli in a scene, whose own answer is found once."""
+    """Return a function of moduli, their `limit_error` in a scene, which is itself solved once."""
     lengths = scene.sheet.lengths
     cells = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
     points, solved = scene.probe_points(), count(1)
@@ -171,7 +172,7 @@ def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
     def off(moduli: Moduli) -> float:
         share = error(answer(_make_section(scene, moduli)), exact)
         if share is None:
-            raise BadInput("the probes do not move: there is no error to tell")
+            raise BadInput("the probes do not move: they have no error")
         return share
 
     return off
@@ -200,7 +201,7 @@ def _make_section(scene: Scene, moduli: Moduli) -> Section:
     material_section = section_of(scene.material, scene.sheet.thickness)
     size = (np.abs(moduli.membrane).max() * np.abs(moduli.bending).max()) ** 0.5
     if np.abs(moduli.coupling).max() > 1e-9 * size:
-        raise BadInput("the cell couples bending and stretching: no shell here has such a section")
+        raise BadInput("the cell couples bending and stretching: no shell has such a section")
     shear = STIFF * material_section.shear if moduli.shear is None else moduli.shear
     return Section(moduli.membrane, moduli.bending, shear)
 
@@ -226,13 +227,13 @@ HEIGHTS = (0.2, 5.0)  # of the layers, over the thickness
 
 
 def five(i: int, j: int) -> list[list[tuple[int, int, int]]]:
-    """The tetrahedra of square (i, j): corners as places along x, along y, and layers."""
+    """Return the tetrahedra of square (i, j): corners as indices along x and y, and layers."""
     flip = (i + j) % 2
     return [[(i + (x ^ flip), j + y, layer) for x, y, layer in cell] for cell in FIVE]
 
 
 def tetrahedral_cell(spacing: float, height: float) -> Cell:
-    """Two layers of nodes, with springs "k" along every side of the tetrahedra between."""
+    """Return two layers of nodes with springs "k" along every side of the tetrahedra between them."""
     cells = (corners for i in range(2) for j in range(2) for corners in five(i, j))
     places = [[(i % 2 * 4 + j % 2 * 2 + layer, i // 2, j // 2) for i, j, layer in cell] for cell in cells]
     nodes = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (-0.5, 0.5)])
@@ -241,13 +242,14 @@ def tetrahedral_cell(spacing: float, height: float) -> Cell:
 
 
 def triangular_cell(name: str, spacing: float) -> Cell:
-    """A mesh of triangles without a membrane of its own: springs "k" along its sides, hinges by angle."""
+    """Return a cell of triangles with springs "k" along their sides and hinges by angle, without a
+    membrane."""
     cell = cell_of(name, spacing, hinge="angle")
     return replace(cell, springs=_join_corners(cell.triangles))
 
 
 def _join_corners(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Place, str], ...]:
-    """Springs "k" between every two corners of elements, each once."""
+    """Return springs "k" between every two corners of elements, each once."""
     sides: dict[tuple[Place, Place], None] = {}
     for element in elements:
         for a, b in combinations(element, 2):
@@ -257,7 +259,7 @@ def _join_corners(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Pla
 
 
 def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[str, float]:
-    """k [N/m] and the layers' distance [m] of tetrahedra.
+    """Return k [N/m] and the layers' distance [m] of tetrahedra.
 
     k has the membrane nearest to the sheet's, the distance then the bending stiffnesses, or the best fit to
     the scene. Raises NoEquilibrium where the scene's sheet has no stable one."""
@@ -282,6 +284,6 @@ def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[st
 
 
 def _fit_factor(form: np.ndarray, target: np.ndarray) -> float:
-    """The factor that brings a form nearest to one that is requested, in Mandel's norm."""
+    """Return the factor that brings a form nearest to a target, in Mandel's norm."""
     weighted = TURNED**2 * form
     return float(np.sum(weighted * target) / np.sum(weighted * form))

@@ -101,7 +101,8 @@ def mujoco(of: Problem) -> str:
 
 
 def _geom(obstacle: Mapping[str, Any]) -> str:
-    """An obstacle in MuJoCo's terms, its axis along z; a cylinder is FAR times as long as it is thick."""
+    """Return an obstacle as MuJoCo's element, its axis along z; a cylinder is FAR times as long as it is
+    thick."""
     along, radius = obstacle.get("normal", obstacle.get("axis")), obstacle.get("radius", 0.0)
     size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {FAR * radius!r}"}
     turned = "" if along is None else f' zaxis="{words(along)}"'
@@ -181,8 +182,8 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
         )
     if any(len(hold.masses) > 1 for hold in lattice.holds):
         raise BadInput(
-            "--for sofa: hinged and held edges hold the mean of their layers, which has no plain "
-            "form there; clamped and curved edges only"
+            "--for sofa: hinged and held edges hold the mean of their layers, which SOFA has no "
+            "constraint for; clamped and curved edges only"
         )
     if len(lattice.pressure) or lattice.couples:
         raise BadInput("--for sofa: pressure and edge moments follow the sheet; dead loads only")
@@ -213,7 +214,7 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
 
 
 def _format_fixed(held: np.ndarray, axes: np.ndarray) -> str:
-    """A constraint for all points that are held along equal axes."""
+    """Return a constraint for all points held along the given axes."""
     indices = words(np.flatnonzero((held == axes).all(axis=1)))
     if axes.all():
         return f'    <FixedProjectiveConstraint indices="{indices}" />\n'

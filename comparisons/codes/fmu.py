@@ -23,7 +23,7 @@ from xml.sax.saxutils import quoteattr
 from comparisons.codes.files import script
 from comparisons.codes.onefile import Program, program
 from sheetbench.answers.report import Write
-from sheetbench.files import whole
+from sheetbench.files import replacing
 from sheetbench.scenes import Scene
 
 if TYPE_CHECKING:
@@ -108,12 +108,12 @@ def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[d
     content |= {f"sources/{name}": text for name, text in (sources | {"buildDescription.xml": BUILD}).items()}
     built = library(sources)
     content |= {built[0]: built[1]} if built else {}
-    missing = [] if built else ["no compiler that works: sheet.fmu has its sources alone"]
+    missing = [] if built else ["no working compiler: sheet.fmu has its sources only"]
     return {"sheet.fmu": functools.partial(write_zip, content=content)}, missing
 
 
 def write_zip(path: Path, content: dict[str, str | bytes]) -> None:
     """Write files by their names into an archive."""
-    with whole(path) as partial, zipfile.ZipFile(partial, "w") as archive:
+    with replacing(path) as partial, zipfile.ZipFile(partial, "w") as archive:
         for name, of in content.items():
             archive.writestr(zipfile.ZipInfo(name), of, zipfile.ZIP_DEFLATED)

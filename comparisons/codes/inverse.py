@@ -1,4 +1,4 @@
-"""Which sheet another code's numbers are: the table of coefficients read the other way.
+"""The sheet of another code's parameters: the inverse of the table of coefficients.
 
 Coefficients C, thickness and density follow from the code's parameters, which are functions of them
 (`comparisons.codes.table`). The cell of the code's mesh then has a membrane A with ν = A12/A11 and
@@ -81,15 +81,15 @@ class SheetOfCode(Answer):
     def impossible(self) -> str:
         """The reason why no isotropic sheet has the coefficients, "" where one has."""
         if self.poisson > MOST_POISSON:
-            return f"ν = {self.poisson:.3g} is of no isotropic material, whose ν is below 0.5"
+            return f"ν = {self.poisson:.3g}: an isotropic material has ν below 0.5"
         if self.bending is None:
-            return "nothing given says how it bends"
+            return "its bending stiffness is not given"
         if not self.bending:
             return "D11 = 0 N·m: a sheet with this membrane has some bending stiffness"
         if self.spacing and self.thickness and self.thickness * SLENDER > self.spacing:
             return (
-                f"D11 = {self.bending:.3g} N·m is of no thin sheet with this membrane: of one "
-                f"{1e3 * self.thickness:.3g} mm thick, with vertices {1e3 * self.spacing:.3g} mm apart"
+                f"D11 = {self.bending:.3g} N·m needs a sheet with this membrane that is not thin, "
+                f"{1e3 * self.thickness:.3g} mm, with vertices {1e3 * self.spacing:.3g} mm apart"
             )
         return ""
 
@@ -110,7 +110,7 @@ class SheetOfCode(Answer):
         return known + (f"; no sheet: {self.impossible}" if self.impossible else "")
 
     def notes(self) -> list[str]:
-        own = "h: of the isotropic sheet with this A11 and D11, E of that h; E h is of the membrane alone."
+        own = "h: of the isotropic sheet with this A11 and D11; E: for this h; E h: of the membrane alone."
         nearest = "D11: of the sheet whose moduli the hinges come nearest to (docs/cells.md)."
         return [own, *([nearest] if self.code.hinge and self.bending else [])]
 
@@ -144,7 +144,7 @@ def sheet_of(
     mesh = LAYERED if layered else cell or (FLAT if row.mesh == LAYERED else row.mesh)
     membrane = ("k",) if springs else ("lambda_h", "mu_h")
     if missing := [name for name in membrane if name not in values]:
-        raise BadInput(f"{option} what is given leaves {', '.join(missing)} of the membrane open")
+        raise BadInput(f"{option} the numbers do not determine {', '.join(missing)} of the membrane")
     if row.hinge != "height" and {"hinge", "layers"} & values.keys() and not spacing:
         raise BadInput(f"{option} --spacing: how far apart are the vertices? The bending depends on it")
     distance = spacing or 1.0

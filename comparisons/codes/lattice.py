@@ -139,7 +139,7 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
         f"{sheet.thickness:g} m, springs by the calibration {calibration.method}; "
         f"{markdown('; '.join(properties))}. {missing}Written by sheetbench {version()}."
     )
-    notes = "".join(f"- Not in here: {markdown(note)}\n" for note in lattice.notes)
+    notes = "".join(f"- Not included: {markdown(note)}\n" for note in lattice.notes)
     notes += "".join(f"\nFor one code: `{name}`.\n" for name in others) + CONTACT * bool(scene.obstacles)
     return PAGE.format(
         title=f"The lattice of {markdown(scene.name)}",

@@ -93,7 +93,7 @@ class CodeSetup(CellInScene):
         return (Table.of(Parameter, self.keys, caption, "parameters", fields=shown),)
 
     def result(self) -> str:
-        """The parameters, and the error that stays."""
+        """Return the parameters and the remaining error in a phrase."""
         off = "" if self.limit_error is None else f"; {100 * self.limit_error:.1f} % off on the finest mesh"
         return ", ".join(f"{key.name} {number(key.value, '.4g')} {key.unit}" for key in self.keys) + off
 
@@ -106,8 +106,8 @@ class CodeSetup(CellInScene):
             notes.append(warning)
         if any(isinstance(support, Point) for support in self.scene.supports):
             notes.append(
-                "A sheet drawn to a single point gives way there without limit as any mesh gets finer: "
-                "meshes agree where a part is held, [[support]] with where = { rectangle = … }."
+                "A sheet held at a point gives way there without limit as a mesh gets finer: hold a part, "
+                "[[support]] with where = { rectangle = … }, for meshes to agree."
             )
         if self.code.mesh == LAYERED and any(isinstance(s, Hinged | Point) for s in self.scene.supports):
             notes.append("Both layers of springs are held: hinged edges and points cannot turn there.")
@@ -116,13 +116,13 @@ class CodeSetup(CellInScene):
         notes.append(f"Coefficients of hinges and springs {basis}.")
         if self.limit_error is not None:
             notes.append(
-                "Error of an infinitely fine mesh with them in this scene: "
+                "Error of an infinitely fine mesh with these coefficients in this scene: "
                 f"{100 * self.limit_error:.1f} % of the largest displacement."
             )
         if not self.named:
             notes.append(
-                "No SCENE was named, whose answer would choose the coefficients and tell their error; the "
-                "files hold the sheet clamped at x0 under its own weight."
+                "No SCENE was given to choose the coefficients and compute their error; the files have the "
+                "sheet clamped at x0 under its own weight."
             )
         notes.append(f"Limits: {self.code.cannot}.")
         notes.append(f"Source: {self.code.source}.")
@@ -130,15 +130,15 @@ class CodeSetup(CellInScene):
         return notes
 
     def _refuse_files(self) -> str:
-        """Why the code gets no files, "" where it does."""
+        """Return the reason why the code has no files for the scene, "" if it has them."""
         if self.scene.masses and self.code.name not in OWN_MASSES:
-            return f"mass: {self.code.title} has one density, no vertex a mass of its own"
+            return f"mass: {self.code.title} has one density for all vertices"
         if self.scene.obstacles and self.code.name not in OBSTACLES:
-            return f"obstacle: {self.code.title} is not given it, {' and '.join(OBSTACLES)} are"
+            return f"obstacle: files for {' and '.join(OBSTACLES)} only have it"
         return refusal(self.scene)
 
     def _warn_of_depth(self) -> str:
-        """Whether two layers of springs are too shallow for the load, in a sentence; "" where they are not.
+        """Return a warning that two layers of springs are too shallow for the load, "" if they are not.
 
         A spring from layer to layer rises by the height H over a side l of a square. At a remaining rise s
         its shear is k s (H² − s²)/(2 l²), at most k H³/(3 √3 l²). What hangs from one edge contracts instead.
@@ -152,7 +152,7 @@ class CodeSetup(CellInScene):
         held = sum(sides[1 - EDGES[support.edge].normal_axis] for support in supports)
         load = float(np.linalg.norm(free)) / held
         enough = 1 + ceil(self.squares * (PEAK * load / borne) ** (1.0 / 3.0))
-        turned = f"its load of {load:.2g} N/m of held edge turns springs between the layers over"
+        turned = f"its load of {load:.2g} N/m of held edge flips springs between the layers"
         return f"The mesh is too coarse: {turned}; take --grid {enough}." if enough > self.squares + 1 else ""
 
     def document(self) -> dict[str, Any]:
@@ -217,8 +217,8 @@ def setup(
         if best and name == LAYERED:
             values = layered_springs(scene, spacing, best=True)
             cell = tetrahedral_cell(spacing, values["layers"])
-        elif best and (better := best_hinge(scene, cell, values)):
-            values["hinge"] = better
+        elif best and (hinge := best_hinge(scene, cell, values)):
+            values["hinge"] = hinge
         if at_rest:
             error_left = limit_error(scene, moduli_of(cell, {one: values[one] for one in cell.units()}))
     except NoEquilibrium as error:
@@ -227,7 +227,7 @@ def setup(
 
 
 def squares_of(grid: GridLike) -> int:
-    """The squares of vertices requested as a grid is, 9 for 8 squares. Raises BadInput for another form."""
+    """Return the number of squares for a grid of vertices, 8 for 9. Raises BadInput for another form."""
     if grid is None:
         return SQUARES
     if not str(grid).isdigit():

@@ -60,7 +60,7 @@ class SheetMesh:
         return np.array(sorted(set(pairs)))
 
     def document(self) -> dict[str, Any]:
-        """Plain data, as the scripts read it."""
+        """Return plain data for the scripts."""
         arrays = {name: value for name, value in vars(self).items() if isinstance(value, np.ndarray)}
         return {
             **{name: value.tolist() for name, value in arrays.items()},
@@ -193,7 +193,7 @@ def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> t
 
 
 def refusal(scene: Scene) -> str:
-    """Why codes of triangles cannot have a scene; nothing where they can."""
+    """Return the reason why codes of triangles do not support a scene, "" if they do."""
     if scene.actuators or any(not isinstance(s, Clamped | Hinged | Point) for s in scene.supports):
         return "these codes hold sheets by vertices, clamps and hinged edges only"
     if any(isinstance(s, Point) and len(s.components) < 3 for s in scene.supports):
@@ -201,17 +201,14 @@ def refusal(scene: Scene) -> str:
     places = [place(s) for s in scene.supports if not isinstance(s, Clamped | Point)]
     rectangles = all(shape.rectangle for s in scene.supports if (shape := place(s)))
     if any(places) or not rectangles:
-        return "support.where: they hold points and clamped rectangles, whose sides are lines of their meshes"
+        return "support.where: these codes hold points and clamped rectangles on lines of their meshes"
     if any(isinstance(support, Hinged) and support.twist == "held" for support in scene.supports):
-        return 'twist = "held": their hinges let the twist of the edge go'
+        return 'twist = "held": these codes have no such hinges'
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
-        return "their clamps stand upright, and supports stay where they are"
+        return "these codes have no tilted clamps and no moving supports"
     if shapes := ", ".join(word for word in scene.shaped_by.split(", ") if word not in HELD):
-        return f"{shapes}: their meshes are of whole rectangles"
-    if any(
-        not isinstance(load, PointLoad | EdgeLoad) or getattr(load, "moment_per_length", 0.0)
-        for load in scene.loads
-    ):
+        return f"{shapes}: these codes have meshes of whole rectangles"
+    if any(not isinstance(load, PointLoad | EdgeLoad) or load.follows for load in scene.loads):
         return "weight and forces at points and along edges only"
     return ""
 
@@ -223,7 +220,7 @@ def _cut_squares(number: np.ndarray, odd: np.ndarray, alternate: bool) -> Iterat
 
 
 def _locate_point(places: np.ndarray, triangles: np.ndarray, at: np.ndarray) -> tuple[list[int], list[float]]:
-    """The triangle that a point lies in, and the shares of its corners."""
+    """Return the triangle that contains a point, and the weights of its corners."""
     plan = places[triangles][:, :, :2]
     edges = (plan[:, 1:] - plan[:, :1]).transpose(0, 2, 1)
     coordinates = np.linalg.solve(edges, (at - plan[:, 0])[:, :, None])[:, :, 0]

@@ -44,7 +44,7 @@ class Code:
 
 
 def _stretching(c: Numbers) -> float:
-    """C11 h = E h/(1 − ν²)."""
+    """Return C11 h = E h/(1 − ν²)."""
     return c["lambda_h"] + 2.0 * c["mu_h"]
 
 
@@ -61,7 +61,8 @@ def _young(c: Numbers) -> float:
 
 
 def _spatial_poisson(c: Numbers) -> float:
-    """ν whose three-dimensional λ/μ is the sheet's plane-stress one: ν/(1 + ν) of the sheet's."""
+    """Return the ν whose three-dimensional λ/μ is the sheet's plane-stress one, ν/(1 + ν) of the sheet's
+    ν."""
     return c["lambda_h"] / (2.0 * (c["lambda_h"] + c["mu_h"]))
 
 

@@ -115,7 +115,7 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
 
 
 def _repeat_masses(groups: Sequence[tuple[int, ...]], width: int) -> np.ndarray:
-    """Masses of each group as often as it takes to fill a row of `width`, (g, width)."""
+    """Return the masses of each group, repeated to fill a row of `width`, (g, width)."""
     rows = [np.repeat(group, width // len(group)) for group in groups]
     return np.array(rows, dtype=int).reshape(-1, width)
 
@@ -161,7 +161,8 @@ def tables(lattice: Description) -> dict[str, str]:
 
 
 def _list_loads(lattice: Description) -> Iterator[Row]:
-    """Loads that follow the sheet: pressed cells, and the couples of edges by their four groups of masses."""
+    """Yield loads that follow the sheet: pressed cells, and couples of edges by their four groups of
+    masses."""
     for corners, pressure in zip(lattice.pressed.tolist(), lattice.pressure.tolist(), strict=True):
         yield ["pressure", *map(_join_numbers, corners), pressure]
     for couple in lattice.couples:
@@ -170,7 +171,7 @@ def _list_loads(lattice: Description) -> Iterator[Row]:
 
 
 def _list_cells(lattice: Description, width: int) -> Iterator[Row]:
-    """Kind, corners, area at rest, stiffness and damping of every cell with springs."""
+    """Yield kind, corners, area at rest, stiffness and damping of every cell with springs."""
     for table in lattice.cells:
         corners = np.array([[*map(_join_numbers, masses)] for masses in table.corners.tolist()])
         stiffness, damping = _pad_columns(table.stiffness, width), _pad_columns(table.damping[:, :3], 3)

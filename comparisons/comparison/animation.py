@@ -20,7 +20,7 @@ from comparisons.pictures.stage import Stage
 from sheetbench.answers.history import History
 from sheetbench.answers.report import NoPicture
 from sheetbench.answers.style import STYLE, plain
-from sheetbench.files import whole
+from sheetbench.files import replacing
 from sheetbench.scenes import Scene
 
 WIDTH, PER_INCH = 4.0, 160  # inches, pixels per inch
@@ -37,7 +37,7 @@ def animate(scene: Scene, histories: Sequence[History], paths: Sequence[Path]) -
     labels = [history.label for history in histories] if len(histories) > 1 else [""]
     images = _images(scene, [frames(history) for history in histories], labels)
     for path in paths:
-        with whole(path) as partial:
+        with replacing(path) as partial:
             _write_gif(partial, images)
 
 

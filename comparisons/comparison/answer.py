@@ -164,7 +164,7 @@ class Comparison(Compared, Answer):
         return (
             f"{sentence}, and the {reference.model} within {few_percent(total)} of the sheet as described"
             f"{mesh}{f' ({exceptions})' * bool(exceptions)}; "
-            f"{'E is' if one_modulus else 'its constants are'} not in this."
+            f"errors of {'E' if one_modulus else 'its constants'} are not included."
         )
 
     def heading(self) -> tuple[str, str, str]:

@@ -84,12 +84,12 @@ def _restarted(again: Solution, previous: Solution, other: Solution) -> Solution
     return replace(again, model=previous.model, settings=settings, setup_seconds=previous.setup_seconds)
 
 
-def _branch_text(changed: Solution, kept: Solution, previous_u: np.ndarray, other_u: np.ndarray) -> str:
+def _branch_text(changed: Solution, other: Solution, previous_u: np.ndarray, other_u: np.ndarray) -> str:
     own_path = f"on its own load path {changed.model} comes to {_largest(previous_u)} mm"
     return (
-        f"{changed.model} and {kept.model} came to different branches of equilibria: "
-        f"{own_path} where {kept.model} comes to {_largest(other_u)} mm. Started in the shape of "
-        f"{kept.model}, {changed.model} reaches that equilibrium too; this is the one shown."
+        f"{changed.model} and {other.model} came to different branches of equilibria: "
+        f"{own_path} where {other.model} comes to {_largest(other_u)} mm. Started in the shape of "
+        f"{other.model}, {changed.model} reaches that equilibrium too; this is the one shown."
     )
 
 

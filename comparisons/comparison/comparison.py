@@ -21,7 +21,7 @@ from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import warm_both
 from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
 from comparisons.sweep import load
-from comparisons.sweep.here import here, with_room
+from comparisons.sweep.in_process import solve_in_process, with_room
 from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
@@ -70,7 +70,7 @@ def compare(
     require_settling(by_name.values() if settle else ())
     rows = []
     for name, model in by_name.items():
-        rows.append(solved_from_motion(model, name) if settle else here(model, name))
+        rows.append(solved_from_motion(model, name) if settle else solve_in_process(model, name))
         context().solved(rows[-1].answer)
     solutions, disagreement = [row.answer for row in rows], ""
     joined = branches.joined(lattice_model, reference_model, *solutions[:2])
@@ -84,7 +84,7 @@ def compare(
     with_bar = reference_model.spec.kind in CHEAP if uncertainty is None else uncertainty
     if with_bar and solutions[1].comparable and not branch_may_change:
         meshes = [reference_model.spec.but(count=n) for n in coarser(reference_model.spec.elements)[1:]]
-        bar = error_bar([rows[1], *map(here, (resolve(scene, mesh) for mesh in meshes))])
+        bar = error_bar([rows[1], *map(solve_in_process, (resolve(scene, mesh) for mesh in meshes))])
     answers, other_branch = tuple(solutions), False
     if not disagreement:
         bar_value = None if bar is None else bar.error

@@ -13,7 +13,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, External, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.limits import Limit
-from comparisons.sweep.solved import Ask, sweep
+from comparisons.sweep.solved import Request, sweep
 from comparisons.sweep.store import Store
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, catalogue
@@ -36,8 +36,8 @@ def crosscheck(
     and for candidates that need more memory than is free.
     """
     versions = {model: code.version() for model, code in codes.items()}
-    asks = [
-        Ask(
+    requests = [
+        Request(
             resolve(scene, spec).scene,
             spec,
             version=versions.get(spec.model),
@@ -48,11 +48,11 @@ def crosscheck(
         for name, specs in models.items()
         for spec in specs
     ]
-    rows = sweep(asks, store, **campaign)
+    rows = sweep(requests, store, **campaign)
 
     def limit(scene: Scene, name: str) -> Limit:
         tags = {"scene": scene.name, "model": name}
-        return Limit.of(name, [row for row in rows if row.ask.tags == tags])
+        return Limit.of(name, [row for row in rows if row.request.tags == tags])
 
     limits = {scene.name: tuple(limit(scene, name) for name in models) for scene in scenes}
     return Crosscheck(tuple(scenes), limits, codes)

@@ -43,7 +43,7 @@ class Crosscheck(Answer):
     limits: dict[str, tuple[Limit, ...]]
     codes: Mapping[str, ExternalCode]
 
-    def against(self, scene: str) -> Limit | None:
+    def reference_limit(self, scene: str) -> Limit | None:
         """Return the limit for comparisons on a scene: the shell's, else the first with a bar."""
         with_bar = [limit for limit in self.limits[scene] if limit.uncertainty is not None]
         return next(
@@ -103,7 +103,7 @@ class Crosscheck(Answer):
 
     def _limit(self, limit: Limit) -> tuple[Any, ...]:
         """Return the values of `LIMITS` from the second on, for the component of largest displacement."""
-        truth, bar, scene = self.against(limit.scene.name), limit.uncertainty, limit.scene
+        truth, bar, scene = self.reference_limit(limit.scene.name), limit.uncertainty, limit.scene
         if truth is None or truth.uncertainty is None or bar is None:
             status = Status.REFUSED if limit.refused else "no answer"
             return (limit.meshes or None, *[None] * 5, str(status))
@@ -118,19 +118,19 @@ class Crosscheck(Answer):
         return (limit.meshes, at, *value, *difference, ", ".join(differing) or "none")
 
     def _pair_with_truth(self, limit: Limit) -> Pair | None:
-        """Return the pair of a model and the model of `against`, None for the latter itself."""
-        truth = self.against(limit.scene.name)
+        """Return the pair of a model and the model of `reference_limit`, None for the latter itself."""
+        truth = self.reference_limit(limit.scene.name)
         names = {limit.name, truth.name if truth else ""}
         return next((p for p in self.pairs if p.scene == limit.scene.name and {p.a, p.b} == names), None)
 
     def result(self) -> str:
-        """Return the differences of all models from the model of `against`, scene by scene."""
+        """Return the differences of all models from the model of `reference_limit`, scene by scene."""
         return "; ".join(filter(None, map(self._difference, self.scenes)))
 
     def _difference(self, scene: Scene) -> str:
         pairs = [(limit.name, self._pair_with_truth(limit)) for limit in self.limits[scene.name]]
         texts = [f"{name} {few(100 * pair.difference)} %" for name, pair in pairs if pair is not None]
-        truth = self.against(scene.name)
+        truth = self.reference_limit(scene.name)
         return f"{scene.name}: {', '.join(texts)} from {truth.name}" if texts and truth is not None else ""
 
     def notes(self) -> list[str]:
@@ -162,9 +162,9 @@ def _document(limit: Limit) -> dict[str, Any]:
     finest = limit.finest
     row: dict[str, Any] = {"label": finest.label}
     if finest.status == Status.REFUSED:
-        row |= {"settings": finest.ask.spec.settings, "advice": Status.REFUSED.advice}
+        row |= {"settings": finest.request.spec.settings, "advice": Status.REFUSED.advice}
     row |= finest.document | {"status": finest.status, "message": finest.message}
-    row |= {"scene": limit.scene.name, "model": limit.name, "version": finest.ask.version}
+    row |= {"scene": limit.scene.name, "model": limit.name, "version": finest.request.version}
     row |= {"meshes": limit.meshes, "failed": limit.failures}
     if (bar := limit.uncertainty) is not None:
         row["uncertainty"] = dict(zip(limit.scene.probes, bar.bar, strict=True))

@@ -86,7 +86,7 @@ def error_bar(rows: Sequence[Solved]) -> ErrorBar | None:
     uncertainty = limit(rows)
     if uncertainty is None:
         return None
-    specs = {row.size: row.ask.spec for row in reversed(rows)}  # the first of equal sizes
+    specs = {row.size: row.request.spec for row in reversed(rows)}  # the first of equal sizes
     used = tuple(spec.elements for n in uncertainty.sizes if isinstance(spec := specs[n], Elements))
     seconds = sum(sum(row.samples) for row in rows[1:])
-    return ErrorBar(uncertainty, tuple(rows[0].ask.scene.probes), used, seconds)
+    return ErrorBar(uncertainty, tuple(rows[0].request.scene.probes), used, seconds)

@@ -1,13 +1,7 @@
-"""Errors of models against a reference, with error bars and branches of equilibria.
+"""Errors of models against a reference (`comparisons.sweep.differences`), with error bars and branches.
 
-Let u be the displacement of a model and u_ref the reference's at equal plan points:
-
-    error        largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
-    field_error  the error over points of the whole sheet in place of the probes
-    relative     |u − u_ref| / |u_ref| at one probe
-
-All are fractions. They are None if the reference does not move by more than round-off, a number is not
-finite, or one of the models did not reach the full load.
+Errors are None too if one of the models did not reach the full load, relative ones also at probes where the
+reference moves by no more than round-off.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ def far_apart_note(
         return f"{models}: {cause}{addition}.", branches_differ
 
     if touched_once := ", ".join(sorted(first.touched ^ reference.touched)):
-        return reason(f"{touched_once}: one of them alone touches it, as too coarse a grid or mesh may")
+        return reason(f"{touched_once}: only one of them touches it; a grid or mesh may be too coarse")
     finer = None
     if lattice.spec.calibration is not None:
         nx, ny, layers = lattice.grid

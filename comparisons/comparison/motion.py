@@ -18,7 +18,7 @@ from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
-from comparisons.sweep.here import moved_here
+from comparisons.sweep.in_process import motion_row
 from comparisons.sweep.limits import motion_bar
 from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
@@ -76,12 +76,12 @@ def compare_motion(
     if uncertainty and truth.succeeded:
         error = LONGER * truth.settings["error"]
         longer = run(resolve(scene, finest), f"{doing} in longer steps", interval, error=error)
-        rows, counts = [moved_here(scene, finest, truth)], finest.counts(scene)
+        rows, counts = [motion_row(scene, finest, truth)], finest.counts(scene)
         if min(counts[:2]) > 1:
             half = finest.but(count=(counts[0] // 2, counts[1] // 2))
             coarse = run(resolve(scene, half), f"{doing} on larger elements", interval)
-            rows.append(moved_here(scene, half, coarse))
-        bars = motion_bar(rows, moved_here(scene, finest, longer))
+            rows.append(motion_row(scene, half, coarse))
+        bars = motion_bar(rows, motion_row(scene, finest, longer))
     return MotionComparison(scene, {**histories, finest.kind: truth}, bars)
 
 

@@ -144,7 +144,7 @@ class MotionComparison(Answer):
         error = few(100 * self.differences[0]["largest"])
         return (
             f"The lattice is up to {error} % off the {reference} in motion, and the {reference} within "
-            f"{bar_text} of finer meshes and steps; E and damping are not in this."
+            f"{bar_text} of finer meshes and steps; errors of E and damping are not included."
         )
 
     def notes(self) -> list[str]:

@@ -21,7 +21,7 @@ from comparisons.comparison.branches import Field, shape
 from comparisons.models.resolve import Resolved
 from comparisons.models.solve import simulate
 from comparisons.models.spec import Lattice
-from comparisons.sweep.here import SolvedHere, here
+from comparisons.sweep.in_process import LocalSolve, solve_in_process
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import mass_of
@@ -37,13 +37,13 @@ def require_settling(models: Iterable[Resolved[Any]]) -> None:
     """Raise BadInput for a model whose statics cannot start from a given shape."""
     for name in (model.spec.model for model in models):
         if name not in (Lattice.NAME, "shell"):
-            raise BadInput(f"--settle: {name}: it is not begun near a shape; lattice and shell are")
+            raise BadInput(f"--settle: {name}: it cannot start from a given shape; lattice and shell can")
 
 
-def solved_from_motion(model: Resolved[Any], name: str) -> SolvedHere:
+def solved_from_motion(model: Resolved[Any], name: str) -> LocalSolve:
     """Return the row of a model whose statics start from the end of its damped motion."""
     near, at_rest, fault = settled(model)
-    row = here(model, name, near=near)
+    row = solve_in_process(model, name, near=near)
     points = model.scene.probe_points()
     shape_at_rest, answer = at_rest(points), row.answer
     difference = np.abs(answer.displacement(points) - shape_at_rest).max(initial=0.0)

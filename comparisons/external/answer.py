@@ -55,9 +55,9 @@ def refusal(
     unsupported = [word for word in scene.drawn_by.split(", ") if word and word not in drawn]
     if unsupported:
         accepted = "sheets without" if drawn else "isotropic whole rectangles that are the same all over"
-        return f"{', '.join(unsupported)}: it is given {accepted}"
+        return f"{', '.join(unsupported)}: it supports {accepted}"
     if scene.obstacles:
-        return "obstacles are not handed over"
+        return "obstacles are not passed to it"
     law = scene.material.law
     if law is not None and law not in laws:
         accepted = (
@@ -65,15 +65,13 @@ def refusal(
             if laws
             else "only linear materials are passed to it"
         )
-        return f"it is not given the material's law '{law}': {accepted}"
+        return f"the material's law '{law}' is not passed to it: {accepted}"
     if any(isinstance(actuator, Chain) for actuator in scene.actuators):
         return chains
-    if any(isinstance(load, EdgeLoad) and load.moment_per_length for load in scene.loads):
+    if any(isinstance(load, EdgeLoad) and load.follows for load in scene.loads):
         return moments
     if any(support.motion is not None for support in scene.supports):
-        return (
-            'supports that move are not handed over: a clamp may be written as an actuator, kind = "motion"'
-        )
+        return 'moving supports are not passed to it: write a clamp as an actuator, kind = "motion"'
     return ""
 
 
@@ -167,7 +165,7 @@ def find_codes(names: Sequence[str] | None = None) -> dict[str, ExternalCode]:
         return {name: code for name, code in models.items() if isinstance(code, ExternalCode)}
     for name, code in models.items():
         if not isinstance(code, ExternalCode):
-            raise BadInput(f"--judges = '{name}': no external code, it has no meshes or no version()")
+            raise BadInput(f"--judges = '{name}': not an external code, it lacks meshes or version()")
         if code.version() is None:
             raise BadInput(f"--judges = '{name}': needs {code.needs}")
     return models

@@ -128,11 +128,11 @@ class Bricks:
         return plan_of(self.plan).within(shape)
 
     def edge(self, name: str) -> np.ndarray:
-        """Nodes of all columns on an edge."""
+        """Return the nodes of all columns on an edge."""
         return self._over(plan_of(self.plan).on_boundary(name))
 
     def supported(self, support: AnySupport) -> np.ndarray:
-        """Nodes of all columns on a support's edge, or in its shape."""
+        """Return the nodes of all columns on a support's edge, or in its shape."""
         shape = place(support)
         return self.edge(support.edge) if shape is None else self._over(plan_of(self.plan).touching(shape))
 
@@ -145,16 +145,16 @@ class Bricks:
         return [np.roll(column, -(len(column) // 2)) for column in columns]
 
     def mean(self, column: np.ndarray) -> np.ndarray:
-        """Weights of a column's nodes in the mean through the thickness: Simpson's rule for columns with
-        nodes inside the layers, the trapezoidal rule for the others."""
+        """Return the weights of a column's nodes in the mean through the thickness: Simpson's rule for
+        columns with nodes inside the layers, the trapezoidal rule for the others."""
         steps = self.sites[column, 1]
         inside = np.where(steps % 2 == 1, 4.0, 2.0)
         rule = np.where(np.isin(steps, (0, steps.max())), 1.0, inside)
         return np.asarray(rule / rule.sum())
 
     def sides(self, load: EdgeLoad) -> tuple[np.ndarray, np.ndarray]:
-        """Nodes of the loaded side faces of bricks (f, 8), corners and then mid-edges; and the faces' areas
-        divided by the thickness (f,) [m]."""
+        """Return the nodes of the loaded side faces of bricks (f, 8), corners and then mid-edges; and the
+        faces' areas divided by the thickness (f,) [m]."""
         on = facets_on(self.plan, load)
         (first, last), middle = self.plan.facets[:, on], self.plan.nvertices + on
         faces = [
@@ -216,10 +216,10 @@ def held(scene: Scene, bricks: Bricks) -> Held:
             fixed[nodes, :2] = fixed[nodes[middle[nodes]], 2] = True
     for edge in driven.values():
         nodes = bricks.edge(edge.edge)
-        placed, height = edge.placed(bricks.positions[nodes, :2]), bricks.positions[nodes, 2:]
-        axes[nodes] = np.swapaxes(np.eye(3) + placed.turn, -1, -2)
+        motion, height = edge.displaced(bricks.positions[nodes, :2]), bricks.positions[nodes, 2:]
+        axes[nodes] = np.swapaxes(np.eye(3) + motion.turn, -1, -2)
         fixed[nodes, :2] = fixed[nodes[middle[nodes]], 2] = True
-        moved = placed.displacement + height * placed.director
+        moved = motion.displacement + height * motion.director
         value[nodes] = np.einsum("krc,kc->kr", axes[nodes], moved)
     tied = tuple(tie for (node, axis), tie in ties.items() if not fixed[node, axis])
     return Held(axes, fixed, value, tied)

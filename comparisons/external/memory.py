@@ -47,14 +47,14 @@ def _of_groups() -> Iterator[int | None]:
         for at in (group, *group.parents):
             if not controllers:
                 folder = ROOT / "sys/fs/cgroup" / at
-                yield _left(folder, "memory.max", "memory.current", r"^inactive_file (\d+)")
+                yield _free_memory(folder, "memory.max", "memory.current", r"^inactive_file (\d+)")
             elif "memory" in controllers.split(","):
                 folder = ROOT / "sys/fs/cgroup/memory" / at
                 files = ("memory.limit_in_bytes", "memory.usage_in_bytes")
-                yield _left(folder, *files, r"^total_inactive_file (\d+)")
+                yield _free_memory(folder, *files, r"^total_inactive_file (\d+)")
 
 
-def _left(folder: Path, limit: str, usage: str, cached: str) -> int | None:
+def _free_memory(folder: Path, limit: str, usage: str, cached: str) -> int | None:
     """Return a group's limit minus its use [bytes]; cached pages of files do not count as used."""
     most, used = (_amount(_text(folder / name), r"(\d+)") for name in (limit, usage))
     if most is None or used is None:

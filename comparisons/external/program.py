@@ -69,15 +69,15 @@ class Program:
         options = [f"--{key}" if v is True else f"--{key}={written(v)}" for key, v in passed.items()]
         question = json.dumps(scene.document()).encode()
         try:
-            ended = run([str(self.path.resolve()), *options], question, seconds, megabytes)
+            process = run([str(self.path.resolve()), *options], question, seconds, megabytes)
         except OSError as error:
             raise BadInput(f"{self.path}: cannot be run: {error.strerror}") from None
-        if ended.code == REFUSED and not ended.stopped:
-            raise BadInput(f"{self.name}: {ended.complaint or 'refused, without a reason'}")
-        document, fault = {}, ended.fault
+        if process.code == REFUSED and not process.stopped:
+            raise BadInput(f"{self.name}: {process.complaint or 'refused, without a reason'}")
+        document, fault = {}, process.fault
         if not fault:
             try:
-                document = _read(scene, ended.answer)
+                document = _read(scene, process.answer)
             except BadInput as error:
                 fault = f"its answer cannot be read: {error}"
         no_value, probes = np.full(3, np.nan), scene.probe_points()
@@ -86,7 +86,7 @@ class Program:
         def sample(points: np.ndarray) -> np.ndarray:
             return np.array([by_point.get(tuple(p), no_value) for p in points.tolist()]).reshape(-1, 3)
 
-        solve_seconds = float(document.get("solve_seconds", ended.seconds))
+        solve_seconds = float(document.get("solve_seconds", process.seconds))
         positions, vertices = (
             np.column_stack([probes, np.zeros(len(probes))]),
             np.arange(len(probes))[:, None],
@@ -98,7 +98,7 @@ class Program:
             status=Status(document["status"]) if document else Status.FAILED,
             unknowns=int(document.get("unknowns", 0)),
             iterations=int(document.get("iterations", 0)),
-            setup_seconds=max(0.0, ended.seconds - solve_seconds),
+            setup_seconds=max(0.0, process.seconds - solve_seconds),
             solve_seconds=solve_seconds,
             sample=sample,
             reactions=document.get("reactions", {}),

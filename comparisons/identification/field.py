@@ -117,14 +117,14 @@ class FieldIdentification(Answer):
 
     def notes(self) -> tuple[str, ...]:
         return (
-            "smoothed as far as noise is left: a value is the mean over a square of about the side resolved, "
-            "finer detail is not seen; its ± is that of noise alone",
+            "smoothed until noise remains: a value is the mean over a square of about the resolved side; its "
+            "± is due to noise alone",
         )
 
     def complaints(self) -> list[str]:
         found = [] if self.converged else [f"the search did not end within {self.evaluations} evaluations"]
         if self.converged and self.chi > 1.1:
-            found.append(f"χ²/n = {self.chi:.2f}: no field of {self.name} leaves noise alone")
+            found.append(f"χ²/n = {self.chi:.2f}: every field of {self.name} leaves more than noise")
         return found
 
     def choices(self) -> dict[str, Any]:

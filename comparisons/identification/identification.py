@@ -164,8 +164,8 @@ def identify(
     names = items(unknown) if isinstance(unknown, str) else unknown
     if field_names := [name for name in names if name.endswith(SUFFIX)]:
         if model != Lattice.NAME or len(names) > 1:
-            raise BadInput(f"unknown = '{field_names[0]}': a field alone, of the lattice")
-        resolved = resolve(scene, lattice, own=False)
+            raise BadInput(f"unknown = '{field_names[0]}': a field is the only unknown, and of the lattice")
+        resolved = resolve(scene, lattice, scene_springs=False)
         return identify_field(resolved, measured, field_names[0].removesuffix(SUFFIX))
     unknowns = tuple(unknown_of(scene, name) for name in names)
     reference = None
@@ -258,7 +258,7 @@ def _make_estimate(u: Unknown, x: float, half_width: float, model_error: float, 
 
 def _require_springs(scene: Scene, lattice: Lattice, names: Sequence[str]) -> None:
     """Raise BadInput for springs that do not depend on the unknowns."""
-    if resolve(scene, lattice, own=False).fitted:
+    if resolve(scene, lattice, scene_springs=False).fitted:
         raise BadInput(f"calibration = '{lattice.calibration}': its springs do not depend on the unknowns")
     if lattice.k is not None and (fixed := [name for name in names if name in ("young", "poisson")]):
         raise BadInput(
@@ -309,7 +309,7 @@ def _snap_to_sheet(measured: Measured, scene: Scene) -> Measured:
     if isinstance(measured, Surface):
         if scene.pierced:
             raise BadInput(
-                f"{measured.source}: points of the surface are fitted to that of a whole rectangle; of a "
+                f"{measured.source}: points of the surface are fitted to a whole rectangle; for a "
                 "sheet with an outline or cutouts give displacements of marked points, x,y,ux,uy,uz"
             )
         return measured

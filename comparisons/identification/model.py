@@ -66,7 +66,7 @@ def lattice_model(scene: Scene, lattice: Lattice) -> Model:
     """Return the requested lattice as a model to fit, open settings chosen by the scene's own values."""
     import lumped
 
-    resolved = resolve(scene, lattice, own=False)
+    resolved = resolve(scene, lattice, scene_springs=False)
     grading = fixed(resolved.spec.grading) or lines_on_shapes(scene, resolved.grid, resolved.spec)
 
     def run(varied: Scene, end: float, names: Sequence[str] = ()) -> History:

@@ -1,4 +1,4 @@
-"""What of a scene can be changed on the page, within which bounds, and how a question is read.
+"""The page's sliders with their bounds, and the reading of its questions.
 
 A question has the values of the page's sliders, JSON from outside: names, types and bounds are checked, which
 are also what keeps a solve small.
@@ -21,7 +21,7 @@ from sheetbench.choices import CALIBRATION, CALIBRATIONS
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import EDGES, Scene, Sheet
 from sheetbench.scenes.meaning.parameters import parameter, put
-from sheetbench.scenes.objects.grid import MASSES, near_square
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES, near_square
 
 MASSES_CAP, ELEMENTS_CAP = 33, 16  # along the side of a square sheet, and as many in all on any other
 ELEMENTS = 8  # unless given: a shell of 8 × 8 elements answers in a tenth of a second
@@ -61,7 +61,7 @@ class Message(BaseModel):
 
 
 class Question(NamedTuple):
-    """What is solved; elements: of the shell, along the shorter side."""
+    """A scene and models to solve; elements: of the shell, along the shorter side."""
 
     number: int
     scene: Scene
@@ -73,8 +73,8 @@ class Panel:
     """The sliders of a scene."""
 
     def __init__(self, scene: Scene, elements: Count = ELEMENTS, lattice: Lattice | None = None) -> None:
-        """elements, lattice: to start with; k has a slider where the lattice has one. Raises BadInput for a
-        value beyond the bounds."""
+        """Start with the given elements and lattice; k has a slider if the lattice has one. Raises BadInput
+        for a value out of bounds."""
         self.scene = scene
         self._lattice = lattice or Lattice()
         self.sliders = {s.name: s for s in _make_sliders(scene, elements, self._lattice)}
@@ -160,7 +160,7 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
             limit = max(2 * abs(curve.value), 1.5 / min(scene.sheet.lengths))
             yield Slider(curve.name, f"Curvature of edge {edge}", "1/m", 1.0, -limit, limit, curve.value)
     masses, finest = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
-    grid, grading = str(lattice.grid or min(MASSES, masses)), lattice.grading or 0.0
+    grid, grading = str(lattice.grid or min(DEFAULT_MASSES, masses)), lattice.grading or 0.0
     if not (grid.isdecimal() and isinstance(grading, float | int) and isinstance(elements, int)):
         settings = f"grid = {grid}, grading = {grading}, elements = {counted(elements)}"
         raise BadInput(f"{settings}: a number each (near-square cells, all edges)")
@@ -172,5 +172,6 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
 
 
 def most(sheet: Sheet, cap: int) -> int:
-    """Near-square cells along the shorter side of a sheet, of which it has cap² in all at most."""
+    """Return the largest number of near-square cells along the shorter side of a sheet with at most cap²
+    cells in all."""
     return max((n for n in range(2, cap + 1) if prod(near_square(sheet, n)) <= cap**2), default=2)

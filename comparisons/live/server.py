@@ -42,7 +42,7 @@ MESSAGE = 4096  # bytes of a question at most
 CONNECTIONS = 32  # open at once
 SHELL_CELLS = 24  # along the shorter side, of the picture of the shell
 KEPT = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")  # of a solution
-FAULT = "a fault of the program; the terminal that it was started from says more"
+FAULT = "a fault of the program; details are in its terminal"
 TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
 HEADERS = {  # of every answer: scripts, styles and answers of this server alone, and nobody's frame
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
@@ -63,7 +63,7 @@ class Server(ThreadingHTTPServer):
         try:
             super().__init__((LOOPBACK, port), Desk)
         except (OSError, OverflowError) as error:
-            raise BadInput(f"--port = {port}: cannot be had: {error}") from None
+            raise BadInput(f"--port = {port}: cannot be used: {error}") from None
         self.panel, self.assets, self.token = panel, _load_assets(panel), secrets.token_urlsafe(32)
         self.hosts = {f"{name}:{self.server_port}" for name in (LOOPBACK, "localhost")}
         self.address = f"http://{LOOPBACK}:{self.server_port}/{self.token}/"
@@ -91,10 +91,10 @@ class Desk(BaseHTTPRequestHandler):
     server_version = sys_version = ""
 
     def log_message(self, *_: object) -> None:
-        """Requests are not logged: the address in them is secret."""
+        """Log no request: the address in it is secret."""
 
-    def refusal(self, own: bool = False) -> HTTPStatus | None:
-        """Put the path below the token in `what`, and return why none is answered; own: it needs an origin.
+    def refusal(self, needs_origin: bool = False) -> HTTPStatus | None:
+        """Set `what` to the path below the token, and return the status of a refusal, if any.
 
         The path needs the random token, compared in constant time; Host must be the loopback's, else a
         foreign name that was made to lead here (DNS rebinding) would do; an Origin that comes must be the
@@ -106,7 +106,7 @@ class Desk(BaseHTTPRequestHandler):
         _, token, self.what, *_ = *self.path.partition("?")[0].split("/", 2), "", ""
         known = secrets.compare_digest(token.encode(), self.server.token.encode())
         ours = {f"http://{host}" for host in self.server.hosts}
-        one = len(origins) <= 1 and (origins or not own) and ours.issuperset(map(str.lower, origins))
+        one = len(origins) <= 1 and (origins or not needs_origin) and ours.issuperset(map(str.lower, origins))
         return None if known and one else HTTPStatus.FORBIDDEN
 
     def do_GET(self) -> None:
@@ -118,7 +118,7 @@ class Desk(BaseHTTPRequestHandler):
 
     def do_POST(self) -> None:
         """Answer a question; one that contradicts itself is refused in a line."""
-        length, refused = self.headers.get("Content-Length", ""), self.refusal(own=True)
+        length, refused = self.headers.get("Content-Length", ""), self.refusal(needs_origin=True)
         if not (length.isascii() and length.isdigit() and len(length) < 9 and int(length) <= MESSAGE):
             refused = refused or HTTPStatus.REQUEST_ENTITY_TOO_LARGE
         if refused or self.what not in WAYS:

@@ -76,7 +76,7 @@ class ExpectedError:
         return f"expected grid error about {few(100 * self.value)} %{lower} ({self.reason})"
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return plain data for JSON."""
         return {**vars(self), "grid": list(self.grid), "reason": self.reason}
 
 
@@ -119,7 +119,7 @@ def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
         return finer, prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
     if prod(finer[:2]) > MOST:
         return NoEstimate(f"{finer[0]} × {finer[1]} masses would be needed")
-    return NoEstimate("these springs do not tend to the sheet on finer grids")
+    return NoEstimate("answers of these springs do not converge to the sheet's on finer grids")
 
 
 def touched_around_points(scene: Scene, solution: Solution, grid: Grid) -> list[str]:
@@ -151,10 +151,10 @@ def expected_error(
     if fine.status is not Status.CONVERGED:
         return NoEstimate(f"on {masses} masses the lattice is {fine.status}")
     if len(fine.snaps) != len(solution.snaps):
-        snaps = f"the sheet snaps {len(fine.snaps)} times, here {len(solution.snaps)}"
+        snaps = f"the sheet snaps {len(fine.snaps)} times, on the given grid {len(solution.snaps)}"
         return NoEstimate(f"on {masses} masses {snaps}")
     if touched_once := ", ".join(sorted(fine.touched ^ solution.touched)):
-        return NoEstimate(f"{touched_once}: touched here or on {masses} masses alone")
+        return NoEstimate(f"{touched_once}: touched on only one of the given grid and {masses} masses")
     points = scene.probe_points()
     stretch = largest_stretch(scene, fine, finer)
     value = grid_error(solution.displacement(points), fine.displacement(points), ratio, stretch)
@@ -172,7 +172,7 @@ def grid_error(coarse: np.ndarray, fine: np.ndarray, ratio: float, stretch: floa
     """
     size, difference = float(np.max(np.abs(fine))), float(np.max(np.abs(coarse - fine)))
     if not difference > ROUNDING * size:
-        return "are the same but for rounding"
+        return "are equal but for rounding"
     value = difference / (1.0 - 1.0 / ratio) / size
     if LAW * stretch < value < FAR:
         return value

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene, Sheet
-from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES, Grid, grid_of
 
 GridLike = int | Sequence[int] | str | None
 Elements = int | tuple[int, int]
@@ -47,7 +47,7 @@ def scene_grid(scene: Scene, grid: GridLike = None) -> Grid:
     if isinstance(grid, str):
         return parse_grid(scene.sheet, grid)
     own = scene.springs and scene.springs.grid
-    return grid_of(scene.sheet, grid if grid is not None else own or MASSES)
+    return grid_of(scene.sheet, grid if grid is not None else own or DEFAULT_MASSES)
 
 
 def _numbers(text: str) -> list[int]:

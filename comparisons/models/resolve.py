@@ -23,7 +23,7 @@ from sheetbench.choices import (
     AUTO,
     BRANCHES,
     CALIBRATIONS,
-    MASSES,
+    MASS_DISTRIBUTIONS,
     REFERENCES,
     listed,
     method_of,
@@ -125,13 +125,13 @@ class Resolved(Generic[S]):
 
 
 def resolve(
-    scene: Scene, spec: S, use: Use = "statics", *, own: bool = True, option: str = ""
+    scene: Scene, spec: S, use: Use = "statics", *, scene_springs: bool = True, option: str = ""
 ) -> Resolved[S]:
     """Return a model of a scene with all choices made.
 
-    use: purpose of the model; for "springs" the memory of a solve is not checked. own: whether the scene's
-    [springs], if any, apply on their own grid and grading if no calibration, k or layer distance is given.
-    The grading "auto" chooses an open calibration too. option: the option of the model's size
+    use: purpose of the model; for "springs" the memory of a solve is not checked. scene_springs: whether the
+    scene's [springs], if any, apply on their own grid and grading if no calibration, k or layer distance is
+    given. The grading "auto" chooses an open calibration too. option: the option of the model's size
     (`comparisons.models.sizes.require_room`).
 
     Raises BadInput for an unknown model, for settings that are unknown or incompatible with each other, the
@@ -142,7 +142,7 @@ def resolve(
             require_effect(f"on {use}", {name: spec.settings.get(name) for name in names})
     model: Resolved[Any]
     if isinstance(spec, Lattice):
-        model = _lattice(scene, spec, own)
+        model = _lattice(scene, spec, scene_springs)
     else:
         if isinstance(spec, Elements):
             _check_elements(spec)
@@ -192,7 +192,7 @@ def _check_lattice(spec: Lattice) -> None:
     require_positive("layer-distance", spec.layer_distance, "m")
     require_choice("branch", spec.branch, BRANCHES)
     if spec.masses is not None:
-        require_choice("--masses", spec.masses, MASSES)
+        require_choice("--masses", spec.masses, MASS_DISTRIBUTIONS)
     if graded := fixed(spec.grading):
         takers = [name for name, method in CALIBRATIONS.items() if "grading" in method.takes]
         named = method_of(spec.calibration, spec.k)
@@ -203,12 +203,12 @@ def _check_lattice(spec: Lattice) -> None:
             )
 
 
-def _lattice(scene: Scene, spec: Lattice, own: bool) -> Resolved[Lattice]:
+def _lattice(scene: Scene, spec: Lattice, scene_springs: bool) -> Resolved[Lattice]:
     _check_lattice(spec)
     spec = spec.but(grid=scene_grid(scene, spec.grid))
     grid = cast(Grid, spec.grid)
     is_open = spec.calibration is None and spec.k is None and spec.layer_distance is None
-    if own and scene.springs is not None and is_open:
+    if scene_springs and scene.springs is not None and is_open:
         return Resolved(scene, spec.but(grading=fixed(spec.grading)))
     method, calibration_reason = resolve_calibration(scene, grid, spec)
     spec = spec.but(calibration=method_of(method, spec.k))

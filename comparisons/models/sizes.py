@@ -43,19 +43,19 @@ def require_room(scene: Scene, spec: Spec, option: str = "", instead: str = "", 
     option; modes: whether natural frequencies are computed.
     """
     room, needed = memory.available(), size(scene, spec)
-    if room is not None and modes and not spec.MASSES:
+    if room is not None and modes and not spec.IS_LATTICE:
         room = round(room / MODES)
     if room is None or needed is None or needed.memory <= room:
         return
     counts = "x".join(str(n) for n in spec.counts(scene))
-    option = option or (f"--{spec.model}" if spec.MASSES else "--elements")
-    count = "grid" if spec.MASSES else "count"
+    option = option or (f"--{spec.model}" if spec.IS_LATTICE else "--elements")
+    count = "grid" if spec.IS_LATTICE else "count"
 
     def fits(number: int) -> bool:
-        found = _estimate(spec, spec.but(**{count: number}).counts(scene))
-        return found.memory <= room
+        estimate = _estimate(spec, spec.but(**{count: number}).counts(scene))
+        return estimate.memory <= room
 
-    fitting = _largest(2 if spec.MASSES else 1, fits)
+    fitting = _largest(2 if spec.IS_LATTICE else 1, fits)
     advice = f"{option} {fitting} would fit" if fitting else f"take fewer along the longer side, {option} NxM"
     memory_text, free = work.memory(needed.memory), work.memory(room)
     raise BadInput(
@@ -79,11 +79,11 @@ def require_states(states: int) -> None:
 def mesh(scene: Scene, spec: Spec) -> str:
     """Return the numbers of masses or elements of a model in words, "" for a plug-in."""
     counts = " × ".join(str(n) for n in spec.counts(scene))
-    return counts and f"{counts} {'masses' if spec.MASSES else 'elements'}"
+    return counts and f"{counts} {'masses' if spec.IS_LATTICE else 'elements'}"
 
 
 def _estimate(spec: Spec, counts: list[int]) -> Size:
-    if spec.MASSES:
+    if spec.IS_LATTICE:
         import lumped
 
         return lumped.footprint((counts[0], counts[1], counts[2]))

@@ -51,7 +51,7 @@ def solve(model: Resolved[Any], name: str = "", near: Any = None) -> Solution:
 
     warm(spec.model)
     start = now()
-    if spec.MASSES:
+    if spec.IS_LATTICE:
         assert model.springs
     calibration_seconds = now() - start
     solution = _solve(model, watch, near)

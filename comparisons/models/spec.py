@@ -37,10 +37,10 @@ _COUNTS = re.compile(r"\d{1,9}(x\d{1,9})+")
 
 @dataclass(frozen=True)
 class Spec(ABC):
-    """Base class of specs; its fields are the settings of the model. MASSES: whether its size is a number of
-    masses, and not of elements."""
+    """Base class of specs; its fields are the settings of the model. IS_LATTICE: whether its size is a number
+    of masses, and not of elements."""
 
-    MASSES: ClassVar = False
+    IS_LATTICE: ClassVar = False
 
     @property
     @abstractmethod
@@ -118,11 +118,11 @@ class Lattice(Spec):
     branch : {"path", "buckled"}, optional
         The equilibrium on the load path, or a stable one along its buckling mode.
     masses : str, optional
-        Distribution of the mass for modes, one of `choices.MASSES`.
+        Distribution of the mass for modes, one of `choices.MASS_DISTRIBUTIONS`.
     """
 
     NAME: ClassVar = "lumped"
-    MASSES: ClassVar = True
+    IS_LATTICE: ClassVar = True
     grid: GridLike = None
     calibration: str | None = None
     k: float | None = None

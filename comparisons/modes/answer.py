@@ -118,7 +118,7 @@ class Spectra(Answer):
             return ()
         return tuple(mode_damping(material, spectrum.frequencies) for spectrum in self.spectra)
 
-    def against(self, model: str) -> tuple[Pair, ...]:
+    def pairs_with(self, model: str) -> tuple[Pair, ...]:
         """Return the pairs with one reference, in the order of the lattice's modes."""
         return tuple(pair for pair in self.pairs if pair.against == model)
 
@@ -201,7 +201,7 @@ class Spectra(Answer):
         """Return notes on labels, choices, pairing, estimates, and omitted rigid motions and actuators."""
         notes = [" · ".join(spectrum.label for spectrum in self.spectra), *choice_notes(self[0].settings)]
         for spectrum in self.spectra[1:]:
-            notes += _pairing_notes(self.against(spectrum.model))
+            notes += _pairing_notes(self.pairs_with(spectrum.model))
         if len(self) > 1:
             notes.append("MAC: modal assurance criterion of both models' shapes, 1 for equal shapes")
         band = self.scene.material.band

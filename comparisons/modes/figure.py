@@ -37,7 +37,7 @@ def compose(spectra: Spectra, style: FigureStyle = PLAIN) -> Figure:
     panels = figure.subplots(len(spectra) * rows, across, squeeze=False).reshape(len(spectra), rows * across)
     shapes = [spectrum.modes.displacement(plan[on_sheet]) for spectrum in spectra.spectra]
     for row, (spectrum, model_shapes) in enumerate(zip(spectra.spectra, shapes, strict=True)):
-        matches = [pair.is_ for pair in spectra.against(spectrum.model)] if row else range(1, count + 1)
+        matches = [pair.is_ for pair in spectra.pairs_with(spectrum.model)] if row else range(1, count + 1)
         for column, axis in enumerate(panels[row]):
             axis.set_axis_off()
             if column >= count or (match := matches[column]) is None:

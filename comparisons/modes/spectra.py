@@ -64,11 +64,11 @@ def spectra(
     buckling_modes = tuple(_buckling(lumped_model, references, count)) if buckling else ()  # may refuse first
     expected = _expected(lumped_model, buckling_modes[0]) if buckling else None
     report(lumped_model)
-    found = [_lattice(lumped_model, count, about)]
+    results = [_lattice(lumped_model, count, about)]
     for model in references:
         report(model)
-        found.append(_reference(model, count, about))
-    return Spectra(scene, tuple(found), about, _sag(scene, lumped_model.springs), buckling_modes, expected)
+        results.append(_reference(model, count, about))
+    return Spectra(scene, tuple(results), about, _sag(scene, lumped_model.springs), buckling_modes, expected)
 
 
 def _buckling(

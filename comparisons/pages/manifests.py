@@ -30,7 +30,7 @@ Name = Annotated[str, AfterValidator(_name)]
 
 
 class Words(TypedDict, total=False):
-    """What a run reported of its answer (`sheetbench.answers.report.Report.words`)."""
+    """The words of a run's answer (`sheetbench.answers.report.Report.words`)."""
 
     title: str
     subtitle: str | None

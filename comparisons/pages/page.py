@@ -92,7 +92,7 @@ def _digest(text: str) -> str:
 
 
 def _spell_out(value: Any) -> Any:
-    """Text with its control characters spelled out; other values as they are."""
+    """Return text with its control characters spelled out; other values unchanged."""
     return terminal(value, keep="\n") if type(value) is str else value
 
 
@@ -137,7 +137,7 @@ def _read_size(path: Path) -> str:
 
 
 def question(study: Study) -> list[tuple[str, str]]:
-    """Pairs of a part's name and its sentence: of the scene, of each model's settings, of common settings;
+    """Return pairs of a topic and its sentence: of the scene, of each model's settings, of common settings;
     reasons of choices are among the notes."""
     scene = study.scene
     sentences = study.attempt("scene", lambda: [*in_words(scene)]) if scene is not None else []
@@ -170,7 +170,7 @@ def _shorten(key: str, value: Any) -> str:
 
 
 def pictures(study: Study) -> list[tuple[str, str]]:
-    """Names and data addresses of a study's pictures; of one in several formats the first."""
+    """Return names and data addresses of a study's pictures; of a picture in several formats the first."""
     names = {Path(name).stem: name for name in reversed(study.ending(".png", ".svg", ".gif"))}
     images = ((name, study.read(name, _encode_picture)) for name in reversed(names.values()))
     return [(name, address) for name, address in images if address]

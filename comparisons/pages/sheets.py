@@ -35,7 +35,7 @@ def own_text(name: str) -> str:
 
 
 def packed(values: Any) -> dict[str, str]:
-    """Numbers of any shape for the viewer: whole ones as uint32, others as float32."""
+    """Return numbers of any shape for the viewer: integers as uint32, others as float32."""
     array = np.asarray(values)
     kind = "uint32" if array.dtype.kind in "iu" else "float32"
     return {kind: b64encode(np.ascontiguousarray(array, dtype=f"<{kind[0]}4").tobytes()).decode("ascii")}
@@ -95,8 +95,8 @@ def viewer_sheet(
 
 
 def forces(points: np.ndarray, displacement: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
-    """Arrows of the scene's loads, as in the pictures; points (n, 3) [m]: of the mesh at rest, displacement
-    (n, 3) [m]: theirs."""
+    """Return arrows of the scene's loads, as in the pictures; points (n, 3) [m]: of the mesh at rest;
+    displacement (n, 3) [m]: at the points."""
     plan, arrows = load_arrows(scene, partial(_fit_normals, points, np.nan_to_num(displacement)))
     found = []
     for at, arrow in zip(plan, max(scene.sheet.lengths) * arrows, strict=True):
@@ -107,7 +107,8 @@ def forces(points: np.ndarray, displacement: np.ndarray, scene: Scene) -> list[d
 
 
 def _fit_normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> np.ndarray:
-    """Unit normals (n, 3) of the deformed mesh at plan points (n, 2): of planes through points nearby."""
+    """Return unit normals (n, 3) of the deformed mesh at plan points (n, 2): of planes through nearby
+    points."""
     normals = np.zeros((len(plan), 3))
     for i, point in enumerate(plan):
         nearest = np.argsort(np.linalg.norm(points[:, :2] - point, axis=1))[:NEAR]
@@ -139,7 +140,7 @@ def _find_cells(mesh: FieldMesh, kinds: Sequence[str], corners: int) -> np.ndarr
 
 
 def _find_quads(mesh: FieldMesh) -> np.ndarray:
-    """Quadrilaterals of the mesh and the outer faces of its bricks, (m, 4)."""
+    """Return the quadrilaterals of the mesh and the outer faces of its bricks, (m, 4)."""
     parts = [_find_cells(mesh, QUADS, 4)]
     bricks = [np.asarray(cells)[:, :8] for kind, cells in mesh.cells if kind.startswith("hexahedron")]
     if bricks:
@@ -150,7 +151,7 @@ def _find_quads(mesh: FieldMesh) -> np.ndarray:
 
 
 def _find_links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Links along an axis, the others, and the axes of chains, (m, 2) each."""
+    """Return links along an axis, the other links, and the axes of chains, (m, 2) each."""
     pairs = _find_cells(mesh, ("line",), 2)
     chain = np.asarray(mesh.point_data.get("actuator", np.zeros(len(mesh.points))))[pairs].min(axis=1) > 0
     lengths = np.abs(np.diff(mesh.points[pairs], axis=1)[:, 0])
@@ -159,8 +160,8 @@ def _find_links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _find_sides(mesh: FieldMesh) -> np.ndarray:
-    """Sides of quadrilaterals, (m, 2): all of a coarse mesh, of a finer regular one as many as cut it into
-    LINES cells a side, so that its shape is visible."""
+    """Return sides of quadrilaterals, (m, 2): all of a coarse mesh, of a finer regular mesh the lines that
+    cut it into LINES cells a side, so that its shape is visible."""
     quads = _find_cells(mesh, QUADS, 4)
     sides = np.unique(np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0)
     mask = np.zeros(len(sides), dtype=bool)
@@ -173,7 +174,8 @@ def _find_sides(mesh: FieldMesh) -> np.ndarray:
 
 
 def _find_held(points: np.ndarray, scene: Scene) -> list[dict[str, Any]]:
-    """Points along every support, in order, on each layer of a lattice, else on the middle of the sheet."""
+    """Return points along every support, in order, on each layer of a lattice, else on the middle of the
+    sheet."""
     size = max(scene.sheet.lengths)
     rows = []
     for support in scene.supports:

@@ -53,7 +53,7 @@ def stage(study: Study) -> Options | None:
 
 
 def _split_file(name: str, mesh: FieldMesh, study: Study) -> list[tuple[Options, Options]]:
-    """Sheets of a file with the view of each."""
+    """Return the sheets of a file with the view of each."""
     data = mesh.point_data
     modes = [key for key in data if re.fullmatch(r".+_mode_\d+", key)]
     if modes:
@@ -95,14 +95,15 @@ def _view_difference(
 
 
 def _list_models(document: Mapping[str, Any]) -> list[str]:
-    """Models of a comparison, the one in question first."""
+    """Return the models of a comparison, the compared one first."""
     solutions = document.get("solutions")
     listed = solutions if isinstance(solutions, list) else []
     return [str(one.get("model")) for one in listed if isinstance(one, dict)]
 
 
 def _order_views(views: list[Options], study: Study) -> list[Options]:
-    """Both models of a comparison together, each in its order, then the rest."""
+    """Return the views in order: both models of a comparison side by side, each model alone, then the
+    rest."""
     models = _list_models(study.document)
     order = {name: place for place, name in enumerate(models)}
     ordered = sorted(views, key=lambda view: order.get(view["name"], len(order)))
@@ -135,7 +136,7 @@ def _read_mesh(path: Path) -> FieldMesh:
 
 
 def _read_series(path: Path) -> list[tuple[float, FieldMesh]]:
-    """Times [s] and meshes that a PVD file lists, none of them from outside its folder."""
+    """Return times [s] and meshes listed in a PVD file. Raises BadInput for a mesh outside its folder."""
     root = path.parent.resolve()
     entries = []
     for entry in ElementTree.fromstring(path.read_text(encoding="utf-8")).iter("DataSet"):

@@ -48,7 +48,7 @@ class Study:
 
     @cached_property
     def words(self) -> Mapping[str, Any]:
-        """What the run reported of its answer; nothing of a run that has not ended."""
+        """The words of the run's answer; empty for a run that has not ended."""
         return self.run.get("words") or {}
 
     @cached_property
@@ -74,7 +74,7 @@ class Study:
 
     @property
     def title(self) -> str:
-        """What the study is about."""
+        """The title of the study."""
         data = self.run.get("scene")
         named = self.words.get("title") or (data.get("name") if isinstance(data, dict) else None)
         alone = self.files[0] if not self.verb and len(self.files) == 1 else ""
@@ -110,7 +110,7 @@ class Study:
 
     @property
     def complaints(self) -> list[str]:
-        """Failures of the run, and doubts about the scene."""
+        """Failures of the run, and warnings about the scene."""
         complaints = [*self.words.get("complaints", ()), *texts(self.document.get("warnings"))]
         return list(dict.fromkeys(complaints))
 
@@ -149,7 +149,7 @@ class Study:
         return f"{self.place}/{name}" if self.place else name
 
     def ending(self, *suffixes: str) -> list[str]:
-        """Names of its files that end so."""
+        """Return names of its files with the given suffixes."""
         return [name for name in self.files if name.lower().endswith(suffixes)]
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from sheetbench.answers.solution import FieldMesh
-from sheetbench.files import whole
+from sheetbench.files import replacing
 
 
 def write_npz(path: Path, values: Mapping[str, Any]) -> None:
@@ -23,7 +23,7 @@ def write_npz(path: Path, values: Mapping[str, Any]) -> None:
             parts |= {f"{name}_{part}": getattr(value, part) for part in ("data", "indices", "indptr")}
         else:
             parts[name] = value
-    with whole(path) as partial:
+    with replacing(path) as partial:
         np.savez(partial, **parts)
 
 
@@ -32,7 +32,7 @@ def write_mat(path: Path, values: Mapping[str, Any]) -> None:
     from scipy.io import savemat
 
     texts = {name: np.array(v, dtype=object) for name, v in values.items() if np.asarray(v).dtype.kind == "U"}
-    with whole(path) as partial:
+    with replacing(path) as partial:
         savemat(partial, {**values, **texts}, oned_as="column")
 
 
@@ -41,5 +41,5 @@ def write_mesh(path: Path, mesh: FieldMesh) -> None:
     import meshio  # its import takes half as long as all others of a comparison together
 
     file = meshio.Mesh(mesh.points, mesh.cells, mesh.point_data, mesh.cell_data)
-    with whole(path) as partial:
+    with replacing(path) as partial:
         meshio.write(partial, file, file_format="vtu")

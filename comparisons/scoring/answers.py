@@ -48,8 +48,8 @@ def read_answers(
     header. Raises BadInput naming an unknown case, or a case's missing or repeated row."""
     columns = read_columns(path)
     suite = suite or _suite_of(columns.names, [*chosen, *(row.cells.get("case", "") for row in columns.rows)])
-    known = references(suite)
-    requested = [reference(name, suite) for name in dict.fromkeys(chosen)] or list(known.values())
+    cases = references(suite)
+    requested = [reference(name, suite) for name in dict.fromkeys(chosen)] or list(cases.values())
     header = HEADERS[suite]
     default = {"case": requested[0].name} if len(chosen) == 1 else {}
     if not set(header) <= {*columns.names, *default}:
@@ -60,7 +60,7 @@ def read_answers(
     rows: dict[str, list[Row]] = {}
     for read in columns.rows:
         row = replace(read, cells=default | read.cells)
-        if row.cells["case"] not in known:
+        if row.cells["case"] not in cases:
             raise row.refused("case", _unknown(row.cells["case"], suite))
         rows.setdefault(row.cells["case"], []).append(row)
     closed = [

@@ -33,15 +33,15 @@ class Suite(Answer):
     def __init__(self, suite: str | None = None) -> None:
         self.suite = suite
         self.cases = references(suite)
-        self._whole = document()
+        self._document = document()
 
     def heading(self) -> tuple[str, str, str]:
-        subtitle = f"{len(self.cases)} cases, {self._whole['licence']}"
-        return f"reference set {self._whole['version']}", subtitle, ""
+        subtitle = f"{len(self.cases)} cases, {self._document['licence']}"
+        return f"reference set {self._document['version']}", subtitle, ""
 
     def document(self) -> dict[str, Any]:
-        cases = [case for case in self._whole["cases"] if case["name"] in self.cases]
-        return {**self._whole, "cases": cases}
+        cases = [case for case in self._document["cases"] if case["name"] in self.cases]
+        return {**self._document, "cases": cases}
 
     def tables(self) -> list[Table]:
         caption = "Cases of the reference set"
@@ -58,7 +58,7 @@ class Suite(Answer):
     def files(self) -> dict[str, Write]:
         by_suite = {case.suite: list(references(case.suite).values()) for case in self.cases.values()}
         texts = {
-            "LICENCE.txt": LICENCE.format(version=self._whole["version"]),
+            "LICENCE.txt": LICENCE.format(version=self._document["version"]),
             **{f"{name}.toml": to_toml(case.scene) for name, case in self.cases.items()},
             **{f"values-{name}.csv": _values(cases) for name, cases in by_suite.items()},
             **{f"answers-{name}.csv": _form(cases) for name, cases in by_suite.items()},

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Annotated, Any
 
-from comparisons.stability.rows import LARGE, Row, broken, place, verdict, who
+from comparisons.stability.rows import LARGE, Row, broken, label_of, place, verdict
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, TableUnit, number
@@ -104,8 +104,8 @@ def summary(maps: Stability) -> Table:
     """Return a table of the parameter ranges by verdict, with a row per study and model."""
     rows, order = [], _order(maps)
     for (study, name), group in groupby(
-        sorted(maps.rows, key=lambda row: (list(VARIED).index(row["study"]), order[who(row)])),
-        key=lambda row: (row["study"], who(row)),
+        sorted(maps.rows, key=lambda row: (list(VARIED).index(row["study"]), order[label_of(row)])),
+        key=lambda row: (row["study"], label_of(row)),
     ):
         runs = [row for row in group if place(row) is not None]
         errors = [row["error"] for row in runs if verdict(row) == "holds" and row["error"] is not None]
@@ -117,7 +117,7 @@ def summary(maps: Stability) -> Table:
 
 def _order(maps: Stability) -> dict[str, int]:
     """Return the order of models and integrators by their first row."""
-    return {name: place for place, name in enumerate(dict.fromkeys(map(who, maps.rows)))}
+    return {name: place for place, name in enumerate(dict.fromkeys(map(label_of, maps.rows)))}
 
 
 def _ranges(rows: Iterable[Row], end: str) -> str:
@@ -136,9 +136,9 @@ def limits(maps: Stability) -> Table:
     runs = [row for row in maps.rows if row["study"] == "damping" and row.get("computed") is not None]
     order = _order(maps)
     rows = []
-    for row in sorted(runs, key=lambda row: order[who(row)]):
+    for row in sorted(runs, key=lambda row: order[label_of(row)]):
         ratio = "the scene's" if place(row) is None else f"ratio {number(place(row), 'g')}"
-        rows.append(StepRow(who(row), ratio, row["computed"], row["advised"], row["status"]))
+        rows.append(StepRow(label_of(row), ratio, row["computed"], row["advised"], row["status"]))
     return Table.of(StepRow, rows, "Largest stable steps", "steps", grouped=True)
 
 
@@ -148,5 +148,5 @@ def run_table(study: str, rows: list[Row]) -> Table:
     varied = (MILLISECONDS if study == "time-step" else NUMBER)(".4g", caption.partition(",")[0])
     kind = "integrator" if "integrator" in rows[0]["cell"] else "model"
     keys = ("status", "error", "iterations", "seconds", "message")
-    values = [(place(row), who(row), *(row[key] for key in keys)) for row in rows]
+    values = [(place(row), label_of(row), *(row[key] for key in keys)) for row in rows]
     return Table.listed(f"{caption.capitalize()}: every run", (varied, kind, *RUNS), values, study)

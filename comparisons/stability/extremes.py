@@ -29,7 +29,7 @@ from comparisons.stability.answer import Stability
 from comparisons.stability.rows import Row
 from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
-from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.solved import Request, Solved, sweep
 from comparisons.sweep.store import Store
 from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS, REFERENCE, VARIED
@@ -41,7 +41,8 @@ from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.orthotropy import MODULI
 from sheetbench.scenes.objects.patches import Patch
 
-Cell = tuple[Ask, Ask | str | None]  # a run, and the run its error refers to, or the reason of a refusal
+# a run, and the run its error refers to, or the reason of a refusal
+Cell = tuple[Request, Request | str | None]
 FACTORS = {
     "load": (0.001, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0),
     "slenderness": (0.03, 0.1, 0.3, 1.0, 3.0, 10.0),
@@ -88,12 +89,13 @@ def stability(
         "time-step": partial(_stepped, scene, lattice, period),
     }
     cells = [cell for name in VARIED if name in varied for cell in makers[name]()]
-    asks = [ask for cell in cells if not isinstance(cell[1], str) for ask in cell if isinstance(ask, Ask)]
-    solved = {id(row.ask): row for row in sweep(asks, store, **campaign)}
+    solvable = (cell for cell in cells if not isinstance(cell[1], str))
+    requests = [one for cell in solvable for one in cell if isinstance(one, Request)]
+    solved = {id(row.request): row for row in sweep(requests, store, **campaign)}
     refused = str(Status.REFUSED)
     rows = tuple(
-        _row(solved.get(id(ask)) or Solved(ask, refused, str(other)), solved.get(id(other)))
-        for ask, other in cells
+        _row(solved.get(id(request)) or Solved(request, refused, str(other)), solved.get(id(other)))
+        for request, other in cells
     )
     return Stability(scene, reference, period or None, rows)
 
@@ -112,21 +114,21 @@ def _scaled(scene: Scene, name: str, models: Mapping[str, Spec], truth: Spec) ->
             variant = scaled(scene, name, factor)
         except BadInput as error:
             refusal = str(error)
-        reference = Ask(variant, truth, label=f"{truth.model} {label}")
+        reference = Request(variant, truth, label=f"{truth.model} {label}")
         for model, spec in models.items():
             tags = _tags(name, factor=factor, model=model)
-            yield Ask(variant, spec, tags=tags, label=f"{model} {label}"), refusal or reference
+            yield Request(variant, spec, tags=tags, label=f"{model} {label}"), refusal or reference
 
 
 def _grids(scene: Scene, models: Mapping[str, Any], truth: Any) -> Iterator[Cell]:
     meshes = {n: n for n in CELLS["references"]} | {min(truth.counts(scene)[:2]): truth.count}
     finest = max(meshes)
-    reference = Ask(scene, truth.but(count=meshes[finest]), label=f"{truth.model} {finest} cells")
+    reference = Request(scene, truth.but(count=meshes[finest]), label=f"{truth.model} {finest} cells")
     for model, spec in models.items():
         for count in CELLS.get(model) or sorted(meshes):
-            sized = spec.but(grid=count + 1) if spec.MASSES else spec.but(count=meshes[count])
+            sized = spec.but(grid=count + 1) if spec.IS_LATTICE else spec.but(count=meshes[count])
             tags = _tags("grid", cells=count, model=model)
-            yield Ask(scene, sized, tags=tags, label=f"{model} {count} cells"), reference
+            yield Request(scene, sized, tags=tags, label=f"{model} {count} cells"), reference
 
 
 def _damped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
@@ -147,12 +149,13 @@ def _damped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
                 duration = min(duration, RUN_STEPS * limit.advised)
             label = f"{name} {'own damping' if ratio is None else f'damping {ratio:g}'}"
             times: Any = {"duration": duration, "every": duration / SAMPLES}
-            yield Ask(variant, lattice, run={"integrator": name}, tags=tags, label=label, **times), None
+            run = {"integrator": name}
+            yield Request(variant, lattice, run=run, tags=tags, label=label, **times), None
 
 
 def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
-    def ask(name: str, step: float) -> Ask:
-        return Ask(
+    def at_step(name: str, step: float) -> Request:
+        return Request(
             scene,
             lattice,
             duration=PERIODS * period,
@@ -162,13 +165,13 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
             label=f"{name} {step:.3g} s",
         )
 
-    reference = ask("midpoint", period / FINE)
+    reference = at_step("midpoint", period / FINE)
     for name in INTEGRATORS:
         steps = [period / n for n in DIVISIONS]
         if lumped.INTEGRATORS[name].explicit and not scene.chains():  # explicit integrators refuse chains
             limit = lumped.explicit_limit(name, scene, resolve(scene, lattice).springs)
             steps = [share * limit for share in SHARES]
-        yield from ((ask(name, step), reference) for step in steps)
+        yield from ((at_step(name, step), reference) for step in steps)
 
 
 def scaled(scene: Scene, name: str, factor: float) -> Scene:
@@ -201,13 +204,13 @@ def _stiffer(part: Patch | Layer, factor: float) -> Patch | Layer:
 def _row(solved: Solved, truth: Solved | None) -> Row:
     """Return a cell's row, with its error if both the run and its reference have an answer."""
     steps = solved.row.get("iterations") or solved.row.get("steps")
-    row: Row = {**solved.ask.tags, "error": None, "iterations": steps, "seconds": solved.run_seconds}
+    row: Row = {**solved.request.tags, "error": None, "iterations": steps, "seconds": solved.run_seconds}
     row |= {"status": solved.status, "message": solved.message}
     if truth is None or not solved.stable or not truth.stable:
         return row
-    if (solved.ask.spec, solved.ask.run) == (truth.ask.spec, truth.ask.run):
+    if (solved.request.spec, solved.request.run) == (truth.request.spec, truth.request.run):
         return row
-    if solved.ask.duration is not None:
+    if solved.request.duration is not None:
         return {**row, "error": _motion_error(solved.row, truth.row)}
     return {**row, "error": error(solved.u, truth.u)}
 

@@ -26,7 +26,7 @@ def place(row: Row) -> Any:
     return row["cell"][KEYS.get(row["study"], "factor")]
 
 
-def who(row: Row) -> str:
+def label_of(row: Row) -> str:
     """Return the model or integrator of a cell."""
     return str(row["cell"].get("model") or row["cell"]["integrator"])
 

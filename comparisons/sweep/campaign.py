@@ -158,7 +158,7 @@ class _Session:
             while waiting or suspects:
                 for run in suspects:
                     if self._stream(deque([run]), pool, 1):
-                        self._keep(run, _lost(run))
+                        self._keep(run, _lost_run(run))
                 suspects = self._stream(waiting, pool, workers)
         except ClusterLost as error:
             done = f"{self.total - self.missing + len(self.seconds)} of {self.total} runs are"
@@ -170,7 +170,7 @@ class _Session:
         current: dict[Future[Finished], Run] = {}
         self.going.clear()
         self.width = width(pool, workers)
-        with _ended(pool(self.width)) as executor:
+        with _shut_down(pool(self.width)) as executor:
             while waiting or current:
                 self.width = width(pool, workers)
                 while waiting and len(current) < self.width:
@@ -188,7 +188,7 @@ class _Session:
                     if isinstance(error, BrokenProcessPool):
                         broken.append(run)
                     else:
-                        self._keep(run, _lost(run, error) if error else future.result())
+                        self._keep(run, _lost_run(run, error) if error else future.result())
                 if broken:
                     return [*broken, *current.values()]
         return []
@@ -207,7 +207,7 @@ class _Session:
 
 
 @contextmanager
-def _ended(executor: Executor) -> Iterator[Executor]:
+def _shut_down(executor: Executor) -> Iterator[Executor]:
     """Wait for the executor at the end of the block, except after an error or Ctrl-C."""
     try:
         yield executor
@@ -255,7 +255,7 @@ def execute(key: str, task: str, arguments: dict[str, Any]) -> Finished:
     return Finished(key, status, plain(row), message, started, _now(), perf_counter() - clock)
 
 
-def _lost(run: Run, error: BaseException | None = None) -> Finished:
+def _lost_run(run: Run, error: BaseException | None = None) -> Finished:
     reason = "" if error is None else f": {error}"
     return Finished(run.key, "lost", {}, f"its worker process crashed{reason}", _now(), _now(), 0.0)
 

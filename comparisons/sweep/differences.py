@@ -1,4 +1,11 @@
-"""The error and the relative difference of displacements, at probes and over the sheet."""
+"""Errors of displacements u of a model against u_ref of a reference at equal plan points, as fractions:
+
+    error        largest |component of (u − u_ref)| over the probes / largest |component of u_ref| over them
+    field_error  the error over points of the whole sheet in place of the probes
+    relative     |u − u_ref| / |u_ref| at one probe
+
+They are None if the reference does not move or a number is not finite.
+"""
 
 from __future__ import annotations
 

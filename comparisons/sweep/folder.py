@@ -71,7 +71,7 @@ class Folder:
         if name not in self.written:
             known = any(name in run["files"] for run in self._runs.values())
             if not (known or self._overwrite) and (self.path / name).exists():
-                raise BadInput(f"{self.path / name}: not of a run here; move it, or --overwrite replaces it")
+                raise BadInput(f"{self.path / name}: no run wrote it; move it, or --overwrite replaces it")
             self.written.append(name)
             self.note()
         return self.path / name

@@ -44,10 +44,10 @@ def limit(
     sizes = [*map(size, usable)]
     if len(set(sizes)) < 2:
         return None
-    ask, layers = usable[0].ask, []
-    if ask.layered and ask.duration is None:
-        layers = [missed_by(row.ask.scene, row.row["settings"]) for row in usable]
-    family = family_of(ask.scene) if ask.layered else SECOND_ORDER
+    request, layers = usable[0].request, []
+    if request.layered and request.duration is None:
+        layers = [missed_by(row.request.scene, row.row["settings"]) for row in usable]
+    family = family_of(request.scene) if request.layered else SECOND_ORDER
     return estimate([row.u for row in usable], sizes, layers, family)
 
 
@@ -83,7 +83,7 @@ class Limit:
     @classmethod
     def of(cls, name: str, rows: Sequence[Solved]) -> Limit:
         """Return the limit of a model's rows on one scene."""
-        return cls(rows[0].ask.scene, name, tuple(rows), limit(rows))
+        return cls(rows[0].request.scene, name, tuple(rows), limit(rows))
 
     @property
     def finest(self) -> Solved:
@@ -108,7 +108,7 @@ class Limit:
     @property
     def meshes(self) -> str:
         """Masses or elements along the shorter side of the meshes with an answer, as text."""
-        counts = (min(row.counts) + row.ask.spec.MASSES for row in self.rows if row.usable)
+        counts = (min(row.counts) + row.request.spec.IS_LATTICE for row in self.rows if row.usable)
         return ", ".join(map(str, counts))
 
 

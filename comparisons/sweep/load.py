@@ -40,7 +40,7 @@ def warnings(costs: Iterable[Mapping[str, Any]], samples: Iterable[Sequence[floa
     costs = [cost for cost in costs if cost.get("load_average") is not None]
     cores = [cost.get("machine", {}).get("cpu_count") or os.cpu_count() or 1 for cost in costs]
     loads = [(cost["load_average"], count) for cost, count in zip(costs, cores, strict=True)]
-    busy = [(load, count) for load, count in loads if load > count]
+    overloaded = [(load, count) for load, count in loads if load > count]
     sentences = []
     workers = sorted({str(cost.get("worker", "this machine")) for cost in costs})
     machines = {str(cost.get("machine")) for cost in costs if "machine" in cost}
@@ -48,9 +48,9 @@ def warnings(costs: Iterable[Mapping[str, Any]], samples: Iterable[Sequence[floa
         sentences.append(f"times are not of one machine ({', '.join(workers)}): compare them with care")
     elif workers and workers != ["this machine"]:
         sentences.append(f"all times are of one worker of the cluster, {workers[0]}")
-    if busy:
-        times = "times are" if len(costs) == 1 else f"{len(busy)} of {len(costs)} times are"
-        load = "load {:.3g} on {} processors".format(*max(busy))
+    if overloaded:
+        times = "times are" if len(costs) == 1 else f"{len(overloaded)} of {len(costs)} times are"
+        load = "load {:.3g} on {} processors".format(*max(overloaded))
         sentences.append(f"{times} not reliable: other programs were running ({load})")
     ratios = [max(times) / min(times) for times in samples if len(times) > 1 and min(times) > 0.0]
     scattered = [ratio for ratio in ratios if ratio > SCATTER]

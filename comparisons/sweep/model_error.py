@@ -103,7 +103,7 @@ def model_error(scene: Scene, answer: Solution, law_chosen: bool = False) -> Mod
     plate, which is linear, have no bounds. law_chosen: whether the user chose the law of strain."""
     if answer.status is not Status.CONVERGED or answer.stretch is None or answer.model not in MODELS:
         return None
-    slenderness, poisson = scene.sheet.thickness / min(_whole(scene)), scene.material.poisson
+    slenderness, poisson = scene.sheet.thickness / min(_whole_sides(scene)), scene.material.poisson
     square = _over_length_that_bends(slenderness**2, answer.energies)
     clamped = any(isinstance(support, Clamped | Curved) for support in scene.supports)
     soft = any(isinstance(support, Hinged) and not tilt_axes(support) for support in scene.supports)
@@ -124,7 +124,7 @@ def _over_length_that_bends(square: float, energies: Mapping[str, float]) -> flo
     return min(square, (shear + membrane * square) / whole) if whole > 0.0 else square
 
 
-def _whole(scene: Scene) -> list[float]:
+def _whole_sides(scene: Scene) -> list[float]:
     """Return the sides [m] of the whole sheet if planes of symmetry cut it; infinite between two planes."""
     planes = [EDGES[s.edge].normal_axis for s in scene.supports if isinstance(s, Symmetric)]
     return [side * (1.0, 2.0, np.inf)[planes.count(axis)] for axis, side in enumerate(scene.sheet.lengths)]
@@ -150,7 +150,7 @@ def _rise(scene: Scene, answer: Solution) -> float:
             inside = contains_xy(scene.region, *(points + 0.5 * step[:, :2]).T)
             inside &= contains_xy(scene.region, *(points + step[:, :2]).T)
         points = points[inside]
-        director = UP + (driven[support.edge].placed(points).director if support.edge in driven else 0.0)
+        director = UP + (driven[support.edge].displaced(points).director if support.edge in driven else 0.0)
         chord = answer.displacement(points + step[:, :2]) - answer.displacement(points) + step
         rises.append(float(np.abs(np.sum(chord * director, axis=1)).max(initial=0.0)))
     return max(rises) / (LEAVING * DECAY * largest) if largest > 0.0 else 0.0
@@ -183,8 +183,8 @@ def share_of_tolerance(tolerance: float, model_error: float | None, bar: float |
     rest = left_for_grid(tolerance, model_error) - bar_value
     if (model_error or 0.0) >= tolerance:
         return (
-            f"Of {allowed} the {reference}'s model error would take {few_percent(model_error or 0.0)}, more "
-            f"than all of it: within {allowed} of a converged {reference} only."
+            f"The {reference}'s model error, {few_percent(model_error or 0.0)}, exceeds {allowed}: the "
+            f"answer is within {allowed} of a converged {reference} only."
         )
     parts = [f"its mesh's bar {few_percent(bar_value)}"] if bar is not None else []
     if model_error:

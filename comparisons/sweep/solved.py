@@ -1,4 +1,4 @@
-"""The table of solves: an `Ask` requests a solve of a model on a scene, a `Solved` is its row.
+"""The table of solves: a `Request` is for a model on a scene, a `Solved` is its row.
 
 `sweep` returns the rows of requested solves; solves in a campaign's store are not repeated. Error bars
 (`comparisons.sweep.limits`), errors and fronts (`comparisons.sweep.front`) are computed from rows.
@@ -27,7 +27,7 @@ TASK = "comparisons.sweep.task:solve"
 
 
 @dataclass(frozen=True)
-class Ask:
+class Request:
     """A requested solve: at rest, or of a motion over `duration` [s], sampled at intervals `every` [s].
 
     repeats: least number of timed solves, 0 without timing; columns: additional ones of
@@ -73,7 +73,7 @@ class Solved:
     row: plain data in SI units, for a fault a traceback alone; started, finished: UTC; run_seconds: total
     time of the run."""
 
-    ask: Ask
+    request: Request
     status: str
     message: str = ""
     row: Mapping[str, Any] = field(default_factory=dict)
@@ -99,7 +99,7 @@ class Solved:
     @property
     def label(self) -> str:
         """The solver's label with its settings, without an answer the request's label."""
-        return str(self.row.get("label", self.ask.label or self.ask.spec.label))
+        return str(self.row.get("label", self.request.label or self.request.spec.label))
 
     @property
     def ending(self) -> str:
@@ -110,7 +110,7 @@ class Solved:
     def u(self) -> np.ndarray:
         """Displacement (n, 3) [m] at the probes, in motion at all samples."""
         probes = [np.array(values, dtype=float) for values in self.row["probes"].values()]
-        return np.array(probes) if self.ask.duration is None else np.concatenate(probes)
+        return np.array(probes) if self.request.duration is None else np.concatenate(probes)
 
     @property
     def field(self) -> np.ndarray:
@@ -120,15 +120,15 @@ class Solved:
     @property
     def counts(self) -> list[int]:
         """Cells along x and y, empty if the settings have no size."""
-        settings = self.row.get("settings") or self.ask.spec.settings
-        if isinstance(self.ask.spec, Elements):
-            return self.ask.spec.counts(self.ask.scene)[:2]
+        settings = self.row.get("settings") or self.request.spec.settings
+        if isinstance(self.request.spec, Elements):
+            return self.request.spec.counts(self.request.scene)[:2]
         return list(settings.get("elements") or [n - 1 for n in settings.get("grid", ())])[:2]
 
     @property
     def size(self) -> float:
         """Mean size of a cell [m]."""
-        return float(np.sqrt(np.prod(self.ask.scene.sheet.lengths) / np.prod(self.counts)))
+        return float(np.sqrt(np.prod(self.request.scene.sheet.lengths) / np.prod(self.counts)))
 
     @property
     def samples(self) -> tuple[float, ...]:
@@ -156,13 +156,13 @@ class Solved:
         return History(**values | {"status": Status(self.status), "time": np.array(values["time"])})
 
 
-def sweep(asks: Sequence[Ask], store: Store, **campaign: Unpack[CampaignKeywords]) -> list[Solved]:
+def sweep(requests: Sequence[Request], store: Store, **campaign: Unpack[CampaignKeywords]) -> list[Solved]:
     """Return the rows of requested solves, in their order, through a campaign's store; campaign: keywords of
     `comparisons.sweep.campaign.carry_out`."""
     from comparisons.sweep.campaign import carry_out
 
-    runs = carry_out([ask.task for ask in asks], store, **campaign)
+    runs = carry_out([request.task for request in requests], store, **campaign)
     return [
-        Solved(ask, run.status, run.message, run.row, run.started, run.finished, run.seconds)
-        for ask, run in zip(asks, runs, strict=True)
+        Solved(request, run.status, run.message, run.row, run.started, run.finished, run.seconds)
+        for request, run in zip(requests, runs, strict=True)
     ]

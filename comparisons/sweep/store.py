@@ -31,7 +31,7 @@ COLUMNS = {
     "digest": "text not null",
 }
 _MOVE = "move it away to start over"
-_MEND = "make it readable and writable, with room on the disk and no other program at it, or move it away"
+_MEND = "make it readable and writable, with room on the disk and no other program's lock, or move it away"
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Store:
         if health != "ok":
             raise BadInput(f"{self.path}: is damaged ({' '.join(health.split())}); {_MOVE}")
         if present != list(COLUMNS):
-            raise BadInput(f"{self.path}: is of another program or version; {_MOVE}")
+            raise BadInput(f"{self.path}: belongs to another program or version; {_MOVE}")
 
     def add(self, task: str, arguments: dict[str, Any], run: Finished) -> None:
         """Store a finished run. Raises BadInput if the file cannot be written."""

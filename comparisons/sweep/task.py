@@ -38,8 +38,8 @@ def solve(
     version: str | None = None,
     digest: str | None = None,
 ) -> dict[str, Any]:
-    """Return the row of a requested solve (`comparisons.sweep.solved.Ask`): the answer's document, with its
-    additional `columns` and `cost`.
+    """Return the row of a requested solve (`comparisons.sweep.solved.Request`): the answer's document, with
+    its additional `columns` and `cost`.
 
     version, digest: of an external code and of a plug-in, parts of the row's key. Raises RuntimeError for a
     plug-in that has changed since the request.

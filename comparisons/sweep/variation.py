@@ -1,7 +1,7 @@
 """Models on variants of a scene: the computation and the answer of `sheetbench sweep`.
 
 Every variant is solved by every model, through a campaign's store; errors at the probes and over the sheet
-are against the reference on the variant (`comparisons.comparison.errors`).
+are against the reference on the variant (`comparisons.sweep.differences`).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Spec, unlike
 from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
-from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.solved import Request, Solved, sweep
 from comparisons.sweep.store import Store
 from comparisons.sweep.variants import in_words, unit_of, variants
 from sheetbench.answers.answer import Answer
@@ -39,11 +39,11 @@ class VariedRow(Solved):
     @property
     def varied(self) -> dict[str, Any]:
         """Values [SI] by key."""
-        return dict(self.ask.tags["varied"])
+        return dict(self.request.tags["varied"])
 
     @property
     def model(self) -> str:
-        return str(self.ask.tags["model"])
+        return str(self.request.tags["model"])
 
 
 @dataclass(frozen=True, repr=False)
@@ -122,10 +122,10 @@ class Variation(Answer):
 
     def complaints(self) -> list[str]:
         """Return a sentence for every row without a stable equilibrium."""
-        return [f"{row.ask.label}: {row.ending}" for row in self.rows if not row.stable]
+        return [f"{row.request.label}: {row.ending}" for row in self.rows if not row.stable]
 
     def choices(self) -> dict[str, Any]:
-        return {row.model: row.row.get("settings") or row.ask.spec.settings for row in self.rows}
+        return {row.model: row.row.get("settings") or row.request.spec.settings for row in self.rows}
 
     @property
     def succeeded(self) -> bool:
@@ -149,14 +149,14 @@ def vary(
     specs: dict[str, Spec] = {} if reference is None else {reference.model: reference}
     for spec in models:
         specs[unlike(spec.model, specs)] = spec
-    asks = []
+    requests = []
     for variant in variants(scene, values):
         require_static(variant.scene)
         for name, spec in specs.items():
             resolve(variant.scene, spec)
             tags, label = {"varied": variant.varied, "model": name}, f"{name} {variant}"
-            asks.append(Ask(variant.scene, spec, columns=("field",), tags=tags, label=label))
-    solved, rows = sweep(asks, store, **campaign), []
+            requests.append(Request(variant.scene, spec, columns=("field",), tags=tags, label=label))
+    solved, rows = sweep(requests, store, **campaign), []
     for n in range(0, len(solved), len(specs)):
         truth = solved[n] if reference is not None and solved[n].usable else None
         rows += [_row(row, truth) for row in solved[n : n + len(specs)]]

@@ -12,7 +12,7 @@ from comparisons.models.grading import parse_grading
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.sweep import load
 from comparisons.sweep.differences import unseen
-from comparisons.sweep.here import SolvedHere
+from comparisons.sweep.in_process import LocalSolve
 from comparisons.sweep.model_error import ModelError, share_of_tolerance
 from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.answers.answer import Answer
@@ -46,7 +46,7 @@ class Advice(Answer):
     trials: TrialSolves
     tolerance: float | None
     budget: float | None
-    chosen: SolvedHere | None
+    chosen: LocalSolve | None
     message: str
     needs: tuple[str, ...]
     left_out: tuple[str, ...]
@@ -61,7 +61,7 @@ class Advice(Answer):
     @property
     def choice(self) -> Spec | None:
         """The advised model, None without one."""
-        return None if self.chosen is None else self.chosen.ask.spec
+        return None if self.chosen is None else self.chosen.request.spec
 
     @property
     def error(self) -> float | None:
@@ -85,7 +85,7 @@ class Advice(Answer):
         unreliable = load.warnings([row.conditions for row in rows], [row.samples for row in rows])
         return [*unreliable, *(f"{spec.model} {spec.size} left out: {reason}" for spec, reason in refused)]
 
-    def errors(self, row: SolvedHere) -> tuple[float | None, float | None, float | None]:
+    def errors(self, row: LocalSolve) -> tuple[float | None, float | None, float | None]:
         """Return a row's error at the probes, its error over the sheet, and its total error, unknown as None.
         The total, for comparison with a tolerance, is the error at the probes plus the reference's error bar
         and model error."""
@@ -115,7 +115,7 @@ class Advice(Answer):
     def document(self) -> dict[str, Any]:
         tried = []
         for row in self.trials.rows.values():
-            trial = _named(row.ask.spec) | {"status": row.status}
+            trial = _named(row.request.spec) | {"status": row.status}
             trial |= dict(zip(("error", "field_error", "total"), self.errors(row), strict=True))
             tried.append(trial | {"solve_seconds": row.seconds})
         return {
@@ -146,7 +146,7 @@ class Advice(Answer):
         """Return a table of the trial solves, the quickest first; statuses if not all converged."""
         rows = []
         for row in sorted(self.trials.rows.values(), key=lambda row: row.seconds):
-            spec, errors = row.ask.spec, self.errors(row)
+            spec, errors = row.request.spec, self.errors(row)
             rows.append(
                 TrialRow(spec.series, spec.size, row.seconds, *errors, row is self.chosen, row.status)
             )
@@ -176,8 +176,8 @@ class Advice(Answer):
             f"membrane strain q a/(E h) = {number(scales.strain, '.2g')}; a: shorter side",
         ]
 
-    def _unseen(self, chosen: SolvedHere) -> list[str]:
-        return unseen([(chosen.ask.spec.label, *self.errors(chosen)[:2])], self.bar)
+    def _unseen(self, chosen: LocalSolve) -> list[str]:
+        return unseen([(chosen.request.spec.label, *self.errors(chosen)[:2])], self.bar)
 
     def result(self) -> str:
         return self.reason if self.choice is None else f"{self.choice.label}: {self.reason}"

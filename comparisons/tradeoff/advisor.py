@@ -18,14 +18,14 @@ from collections.abc import Sequence
 
 from comparisons.comparison.comparison import load_static
 from comparisons.models.spec import Lattice, Spec
-from comparisons.sweep.here import SolvedHere
+from comparisons.sweep.in_process import LocalSolve
 from comparisons.sweep.model_error import left_for_grid
 from comparisons.tradeoff.advice import Advice
 from comparisons.tradeoff.trials import TrialSolves
 from sheetbench.choices import REFERENCE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import AnyScene
-from sheetbench.scenes.objects.grid import MASSES
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES
 
 NEGLIGIBLE = 0.25  # of the tolerance: smaller effects are left out
 LINEAR_LOAD_NUMBER = 2.0  # linear models are not tried above it
@@ -95,9 +95,9 @@ def advise(
     return _advice(trials, tolerance, budget, chosen, message)
 
 
-def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> SolvedHere | None:
+def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> LocalSolve | None:
     """Return the quickest candidate that is certainly within the tolerance."""
-    best: SolvedHere | None = None
+    best: LocalSolve | None = None
     remaining = list(candidates)
     while remaining:
         remaining.sort(key=trials.predicted_seconds)
@@ -112,7 +112,7 @@ def _cheapest(trials: TrialSolves, candidates: list[Spec], tolerance: float) -> 
     return best
 
 
-def _adequate(trials: TrialSolves, trial: SolvedHere, tolerance: float) -> bool:
+def _adequate(trials: TrialSolves, trial: LocalSolve, tolerance: float) -> bool:
     """Return whether a trial is within the tolerance; refine the reference until this is certain."""
     while True:
         error, bar = trials.error(trial), trials.uncertainty
@@ -124,9 +124,9 @@ def _adequate(trials: TrialSolves, trial: SolvedHere, tolerance: float) -> bool:
             return False
 
 
-def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -> SolvedHere | None:
+def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -> LocalSolve | None:
     """Return the candidate of least error within the budget [s], None if all take longer."""
-    best: SolvedHere | None = None
+    best: LocalSolve | None = None
     for candidate in candidates:
         if trials.predicted_seconds(candidate) > 1.5 * budget:
             continue
@@ -138,7 +138,7 @@ def _most_accurate(trials: TrialSolves, candidates: list[Spec], budget: float) -
     return best
 
 
-def _nearest(trials: TrialSolves, candidates: list[Spec]) -> SolvedHere | None:
+def _nearest(trials: TrialSolves, candidates: list[Spec]) -> LocalSolve | None:
     """Return the trial of least error, the reference itself if it may be chosen."""
     if trials.models is None or REFERENCE in trials.models:
         return trials.reference
@@ -150,19 +150,19 @@ def _advice(
     trials: TrialSolves,
     tolerance: float | None,
     budget: float | None,
-    chosen: SolvedHere | None,
+    chosen: LocalSolve | None,
     message: str,
 ) -> Advice:
     needs, left_out = _effects(trials, chosen, tolerance or 0.01)
-    spec = None if chosen is None else chosen.ask.spec
-    grid = (spec if isinstance(spec, Lattice) else trials.lattice(MASSES - 1)).grid
+    spec = None if chosen is None else chosen.request.spec
+    grid = (spec if isinstance(spec, Lattice) else trials.lattice(DEFAULT_MASSES - 1)).grid
     lattice = trials.resolved(trials.springs.but(grid=grid))
     reasons = tuple(f"{name.removesuffix('_reason')}: {text}" for name, text in lattice.reasons.items())
     return Advice(trials, tolerance, budget, chosen, message, needs, left_out, reasons)
 
 
 def _effects(
-    trials: TrialSolves, chosen: SolvedHere | None, tolerance: float
+    trials: TrialSolves, chosen: LocalSolve | None, tolerance: float
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the effects that the scene needs, and the effects left out of the chosen model."""
     needs, left_out = ["bending"], ["dynamics: the question is static"]
@@ -180,7 +180,7 @@ def _effects(
     if error > tolerance:
         needs.append("large displacements")
     elif chosen is not None and (
-        getattr(chosen.ask.spec, "linear", False) or chosen.ask.spec.model == "plate"
+        getattr(chosen.request.spec, "linear", False) or chosen.request.spec.model == "plate"
     ):
         left_out.append(f"nonlinearity: the linear answer is {100 * error:.1g} % off")
     if trials.scene.actuators:

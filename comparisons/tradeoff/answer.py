@@ -88,7 +88,7 @@ class Tradeoff(Priced):
     def orders(self) -> list[OrderRow]:
         """Observed orders of every series, from its rows with an error."""
         out = []
-        for name, numbers in grouped([row.ask.spec.series for row in self.rows]).items():
+        for name, numbers in grouped([row.request.spec.series for row in self.rows]).items():
             rows = [self.rows[i] for i in numbers if self.rows[i].error is not None]
             errors, unknowns = [row.error for row in rows], [row.known.get("unknowns") or 0 for row in rows]
             in_size = error_order([row.cell_size for row in rows], errors, self.uncertainty)
@@ -99,7 +99,7 @@ class Tradeoff(Priced):
     @property
     def curves(self) -> dict[str, tuple[list[int], float | None]]:
         """Row numbers and observed order of the errors, by series."""
-        numbers = grouped([row.ask.spec.series for row in self.rows])
+        numbers = grouped([row.request.spec.series for row in self.rows])
         return {row.series: (numbers[row.series], row.error_order) for row in self.orders}
 
     def document(self) -> dict[str, Any]:
@@ -148,7 +148,7 @@ class Tradeoff(Priced):
         )
 
     def choices(self) -> dict[str, Any]:
-        return {"reference": self.reference.ask.spec.settings}
+        return {"reference": self.reference.request.spec.settings}
 
     @property
     def succeeded(self) -> bool:
@@ -218,7 +218,7 @@ class DynamicTradeoff(Priced):
 
     def notes(self) -> list[str]:
         lattices = " · ".join(self.lattices)
-        reference = f"{self.reference.model} with {self.reference.ask.spec.size} elements"
+        reference = f"{self.reference.model} with {self.reference.request.spec.size} elements"
         return [
             f"errors: at the probes, against the {reference}; its uncertainty: {self.uncertainty_text}",
             *([f"{lattices}; lowest period {self.lowest_period:.4g} s"] if lattices else []),

@@ -28,7 +28,7 @@ from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.limits import in_all, motion_bar
-from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.solved import Request, Solved, sweep
 from comparisons.sweep.store import Store
 from comparisons.tradeoff.answer import DynamicTradeoff
 from comparisons.tradeoff.row import MotionRow
@@ -76,40 +76,40 @@ def dynamic_tradeoff(
         require_motion(scene, other)
     models = [resolve(scene, lattice, "motion") for lattice in lattices]
     periods = [lumped.shortest_period(scene, model.springs) for model in models]
-    ask = partial(Ask, scene, duration=duration, every=min(periods) / SAMPLES)
+    request = partial(Request, scene, duration=duration, every=min(periods) / SAMPLES)
 
-    def of_lattice(number: int, name: str, step: float, repeats: int = 1) -> Ask:
+    def of_lattice(number: int, name: str, step: float, repeats: int = 1) -> Request:
         label = f"{models[number].springs.title}, {name} {step:.3g} s"
         run, tags = {"integrator": name, "step": step}, {"lattice": number}
-        return ask(models[number].spec, repeats=repeats, run=run, tags=tags, label=label)
+        return request(models[number].spec, repeats=repeats, run=run, tags=tags, label=label)
 
-    meshes = [ask(finest.but(count=n), run={"error": ERRORS[-1]}) for n in coarser(finest.elements)]
-    meshes.append(ask(finest, run={"error": LONGER * ERRORS[-1]}))
+    meshes = [request(finest.but(count=n), run={"error": ERRORS[-1]}) for n in coarser(finest.elements)]
+    meshes.append(request(finest, run={"error": LONGER * ERRORS[-1]}))
     fine_runs = [
         of_lattice(i, "midpoint", period / n, 0)
         for n in (fine, fine // 2)
         for i, period in enumerate(periods)
     ]
-    asks: list[Ask] = []
+    requests: list[Request] = []
     for number, (model, period) in enumerate(zip(models, periods, strict=True)):
         for name in integrators:
             steps = [period / n for n in divisions]
             if lumped.INTEGRATORS[name].explicit and not scene.chains():  # explicit integrators refuse chains
                 largest_step = lumped.explicit_limit(name, scene, model.springs)
                 steps = [share * largest_step for share in SHARES]
-            asks += [of_lattice(number, name, step) for step in steps]
+            requests += [of_lattice(number, name, step) for step in steps]
     for other in others:
         runs = [{"error": error} for error in ERRORS] if isinstance(other, Elements) else [{}]
-        asks += [ask(other, repeats=1, run=run) for run in runs]
-    solved = iter(sweep([*meshes, *fine_runs, *asks], store, **campaign))
+        requests += [request(other, repeats=1, run=run) for run in runs]
+    solved = iter(sweep([*meshes, *fine_runs, *requests], store, **campaign))
     *by_mesh, longer_steps = [next(solved) for _ in meshes]
     truths, halves = ([next(solved) for _ in models] for _ in range(2))
-    rows = sorted(solved, key=lambda row: _sort_key(row.ask, integrators))
+    rows = sorted(solved, key=lambda row: _sort_key(row.request, integrators))
     reasons = (reason for model in models for reason in model.reasons.items())
     return DynamicTradeoff(
         scene,
         tuple(
-            MotionRow.of(row, by_mesh[0], truths[row.ask.tags["lattice"]] if row.ask.tags else None)
+            MotionRow.of(row, by_mesh[0], truths[row.request.tags["lattice"]] if row.request.tags else None)
             for row in rows
         ),
         MotionRow.of(by_mesh[0], by_mesh[0]),
@@ -122,10 +122,10 @@ def dynamic_tradeoff(
     )
 
 
-def _sort_key(ask: Ask, integrators: Sequence[str]) -> tuple[float, int]:
+def _sort_key(request: Request, integrators: Sequence[str]) -> tuple[float, int]:
     """Return the sort key of a run: lattices first, ordered by integrator."""
-    name = ask.run.get("integrator")
-    return (ask.tags.get("lattice", np.inf), integrators.index(name) if name in integrators else 0)
+    name = request.run.get("integrator")
+    return (request.tags.get("lattice", np.inf), integrators.index(name) if name in integrators else 0)
 
 
 def _largest_difference(first: Solved, second: Solved) -> float:

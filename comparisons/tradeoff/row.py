@@ -61,12 +61,12 @@ class TradeoffRow(Solved):
     @property
     def cell_size(self) -> float | None:
         """Size of a cell along the shorter side [m], None if the settings have no size."""
-        cells = _cells(self.ask.spec.settings)
-        return min(self.ask.scene.sheet.lengths) / cells if cells else None
+        cells = _cells(self.request.spec.settings)
+        return min(self.request.scene.sheet.lengths) / cells if cells else None
 
     @property
     def model(self) -> str:
-        return self.ask.spec.model
+        return self.request.spec.model
 
     @property
     def sized(self) -> tuple[float | None, float | None]:
@@ -76,7 +76,7 @@ class TradeoffRow(Solved):
     @property
     def mark(self) -> str:
         """Label of the row's point: counts along both sides, one count if they are equal."""
-        along = self.ask.spec.size.split("×")[:2]
+        along = self.request.spec.size.split("×")[:2]
         return along[0] if len(set(along)) == 1 else "×".join(along)
 
     @property
@@ -91,14 +91,14 @@ class TradeoffRow(Solved):
 
     def cells(self) -> tuple[Any, ...]:
         """Return the values of `TRADED` without row number, front and status."""
-        spec, known = self.ask.spec, self.known
+        spec, known = self.request.spec, self.known
         unknowns, iterations, setup, memory = (known.get(name) for name in MEASURED)
         times = (setup, self.seconds, min(self.samples, default=None), max(self.samples, default=None))
         return (spec.series, spec.size, unknowns, iterations, *times, memory, self.error, self.field_error)
 
     def as_dict(self) -> dict[str, Any]:
         """Return the row as JSON data."""
-        spec, known = self.ask.spec, self.known
+        spec, known = self.request.spec, self.known
         out = {name: getattr(self, name) for name in OWN} | {name: known.get(name) for name in MEASURED}
         out |= {"model": shown_name(spec.model), "settings": spec.settings, "series": spec.series}
         out |= {name: known[name] for name in _OF_AN_ANSWER if known.get(name) is not None}
@@ -151,23 +151,23 @@ class MotionRow(TradeoffRow):
     @property
     def step(self) -> float | None:
         """The step [s]: fixed, or the mean step of an error control."""
-        mean = (self.ask.duration or 0.0) / self.row["steps"] if self.usable and self.row["steps"] else None
-        return self.ask.run.get("step") or mean
+        steps = self.row["steps"] if self.usable else 0
+        return self.request.run.get("step") or ((self.request.duration or 0.0) / steps if steps else None)
 
     @property
     def cost(self) -> float | None:
         """Solver time per simulated second."""
-        return self.row["solve_seconds"] / self.ask.duration if self.usable else None
+        return self.row["solve_seconds"] / self.request.duration if self.usable else None
 
     @property
     def integrator(self) -> str:
         """Name of the integrator, "" for models without a choice."""
-        return str(self.ask.run.get("integrator", ""))
+        return str(self.request.run.get("integrator", ""))
 
     @property
     def run(self) -> str:
         """The model with its size and integrator."""
-        return " ".join(filter(None, (self.model, self.ask.spec.size, self.integrator)))
+        return " ".join(filter(None, (self.model, self.request.spec.size, self.integrator)))
 
     @property
     def name(self) -> str:
@@ -181,11 +181,12 @@ class MotionRow(TradeoffRow):
 
     @property
     def mark(self) -> str:
-        return milliseconds(self.step) if self.step else self.ask.spec.size
+        return milliseconds(self.step) if self.step else self.request.spec.size
 
     def as_dict(self) -> dict[str, Any]:
         """Return the row as JSON data."""
-        out: dict[str, Any] = {"model": self.model, "size": self.ask.spec.size, "integrator": self.integrator}
+        size, integrator = self.request.spec.size, self.integrator
+        out: dict[str, Any] = {"model": self.model, "size": size, "integrator": integrator}
         out |= {"step": self.step, "status": self.status, "message": self.message}
         out |= {name: self.known.get(name) for name in OF_A_RUN} | {"seconds_per_second": self.cost}
         return out | {"error": self.error, **{name: getattr(self, name) for name in OF_A_MOTION}}

@@ -1,6 +1,6 @@
 """Error against cost of many models of one scene, measured in one way against the finest reference.
 
-    error        at the probes, and field_error over the sheet (`comparisons.comparison.errors`)
+    error        at the probes, and field_error over the sheet (`comparisons.sweep.differences`)
     uncertainty  the reference's error bar by the grid convergence index, from meshes of n, ¾ n and ½ n
                  elements per side (`fem_reference.uncertainty`)
     cost         see `comparisons.sweep.task`
@@ -21,7 +21,7 @@ from comparisons.models.spec import Elements, Spec
 from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import limit
-from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.solved import Request, Solved, sweep
 from comparisons.sweep.store import Store
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
@@ -53,9 +53,9 @@ def tradeoff(
     for candidate in candidates:
         resolve(scene, candidate, option=f"--{candidate.model}")
     fine = resolve(scene, reference or finest_shell(candidates, REFERENCE_ELEMENTS)).spec
-    meshes = [Ask(scene, fine.but(count=n), columns=TRADED) for n in coarser(fine.elements)]
-    asks = [Ask(scene, candidate, repeats, TRADED) for candidate in candidates]
-    solved = sweep([*meshes, *asks], store, **campaign)
+    meshes = [Request(scene, fine.but(count=n), columns=TRADED) for n in coarser(fine.elements)]
+    requests = [Request(scene, candidate, repeats, TRADED) for candidate in candidates]
+    solved = sweep([*meshes, *requests], store, **campaign)
     by_mesh, rows = solved[: len(meshes)], solved[len(meshes) :]
     truth = by_mesh[0]
     bar = limit(by_mesh) if truth.usable else None

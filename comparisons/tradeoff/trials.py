@@ -20,7 +20,7 @@ from comparisons.models.scales import scales
 from comparisons.models.sizes import has_room, require_room
 from comparisons.models.spec import Elements, Lattice, Spec, counted
 from comparisons.sweep.differences import error
-from comparisons.sweep.here import SolvedHere, here
+from comparisons.sweep.in_process import LocalSolve, solve_in_process
 from comparisons.sweep.limits import limit
 from comparisons.sweep.model_error import ModelError, model_error
 from sheetbench.choices import CALIBRATION
@@ -49,16 +49,16 @@ class TrialSolves:
         default all. Raises BadInput for a grid, for invalid or contradictory springs and grading, and if the
         first references need too much memory; larger models are just left out."""
         if lattice.grid is not None:
-            raise BadInput(f"grid = {counted(lattice.grid)}: is chosen here; leave it out")
+            raise BadInput(f"grid = {counted(lattice.grid)}: is chosen by the trials; leave it out")
         for name in models or ():
             require_choice("models", name, CELLS)
         self.scene, self.models, self.springs = scene, models, lattice
         self.scales = scales(scene)
-        self.rows: dict[Spec, SolvedHere] = {}
+        self.rows: dict[Spec, LocalSolve] = {}
         self.refused: dict[Spec, str] = {}  # with the reason
         self.meshes: list[int] = []
         self.seconds = 0.0  # of all solves
-        require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="advise has no coarser one")
+        require_room(scene, self.elements("shell", MESHES[FIRST - 1]), instead="no coarser trial exists")
 
     def lattice(self, cells: int, linear: bool = False) -> Lattice:
         """Return a lattice with `cells` along the shorter side; linear: with default springs."""
@@ -71,7 +71,7 @@ class TrialSolves:
 
     def resolved(self, lattice: Lattice) -> Resolved[Lattice]:
         """Return a lattice with all choices made, without use of the scene's own [springs]."""
-        return resolve(self.scene, lattice, "springs", own=False)
+        return resolve(self.scene, lattice, "springs", scene_springs=False)
 
     def elements(self, kind: str, cells: int) -> Elements:
         """Return a reference with `cells` elements along the shorter side."""
@@ -87,16 +87,16 @@ class TrialSolves:
         named = [spec for spec in specs if self.models is None or spec.model in self.models]
         return [spec for spec in named if has_room(self.scene, spec)]
 
-    def row(self, candidate: Spec, repeats: int = REPEATS) -> SolvedHere:
+    def row(self, candidate: Spec, repeats: int = REPEATS) -> LocalSolve:
         """Return the candidate's row, solved on the first request."""
         if candidate not in self.rows:
             start = perf_counter()
             with threadpool_limits(1):  # as in campaigns
-                self.rows[candidate] = here(resolve(self.scene, candidate), repeats=repeats)
+                self.rows[candidate] = solve_in_process(resolve(self.scene, candidate), repeats=repeats)
             self.seconds += perf_counter() - start
         return self.rows[candidate]
 
-    def try_row(self, candidate: Spec) -> SolvedHere | None:
+    def try_row(self, candidate: Spec) -> LocalSolve | None:
         """Return the candidate's row, None if refused, as for a grid without a mass at a point."""
         try:
             return self.row(candidate)
@@ -115,7 +115,7 @@ class TrialSolves:
         return self.row(self.elements("shell", cells), repeats=1).stable
 
     @property
-    def reference(self) -> SolvedHere:
+    def reference(self) -> LocalSolve:
         """The reference on its finest mesh so far."""
         return self.row(self.elements("shell", self.meshes[-1]))
 
@@ -131,11 +131,11 @@ class TrialSolves:
         """Model error of the reference, independent of its mesh, from its present answer."""
         return model_error(self.scene, self.reference.answer)
 
-    def error(self, row: SolvedHere) -> float:
+    def error(self, row: LocalSolve) -> float:
         """Return the error of a row at the probes, infinite without a stable answer."""
         return (error(row.u, self.reference.u) or 0.0) if row.stable else float("inf")
 
-    def field_error(self, row: SolvedHere) -> float | None:
+    def field_error(self, row: LocalSolve) -> float | None:
         """Return the error of a row over the sheet, None without a stable answer."""
         return error(row.field, self.reference.field) if row.stable else None
 
@@ -145,7 +145,7 @@ class TrialSolves:
             return self.rows[candidate].seconds
         size, series = unknowns(candidate), _time_series(candidate)
         rows = [row for spec, row in self.rows.items() if _time_series(spec) == series]
-        points = [(unknowns(row.ask.spec), row.seconds) for row in rows]
+        points = [(unknowns(row.request.spec), row.seconds) for row in rows]
         if not points:
             return size * 1e-5
         points.sort(key=lambda point: abs(np.log(point[0] / size)))

@@ -190,13 +190,13 @@ def relax(mujoco: Any, model: Any, data: Any, tolerance: float) -> tuple[int, bo
 
 def _refusal(scene: Scene) -> str:
     if scene.drawn_by:
-        return f"{scene.drawn_by}: it is given isotropic whole rectangles that are the same all over"
+        return f"{scene.drawn_by}: it supports isotropic whole rectangles that are the same all over"
     if any(not isinstance(s, Clamped | Hinged) for s in scene.supports) or scene.actuators:
         return "MuJoCo's sheet is held by clamped and hinged edges only"
     if any(s.motion is not None or (isinstance(s, Clamped) and s.tilt) for s in scene.supports):
         return "clamps of MuJoCo's sheet cannot be tilted, nor its supports move"
     if scene.obstacles:
-        return "obstacles are not handed over"
+        return "obstacles are not passed to it"
     if any(not isinstance(load, PointLoad) for load in scene.loads):
         return "gravity and point loads only"
     return ""

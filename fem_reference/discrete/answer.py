@@ -97,7 +97,7 @@ def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
     the scene's sheet contributes only its thickness, and the lengths of edges with actuators."""
     kind: Any = model
     run = traced(lambda: kind(mesh, scene))
-    run.sheet.own = True
+    run.sheet.own_outline = True
     return answered(run, elements=mesh.nelements)
 
 

@@ -60,7 +60,7 @@ class Touching(SheetItem):
             least, longest = 4 if self.bent else 2, np.ptp(plan.corners, axis=1).max()
             parts = least * max(1, int(np.ceil(2.0 * longest / obstacle.radius / least)))
             line = np.linspace(-1.0, 1.0, 2 * parts + 1)
-            r, s = (each.ravel() for each in np.meshgrid(line, line, indexing="ij"))
+            r, s = (coordinates.ravel() for coordinates in np.meshgrid(line, line, indexing="ij"))
             number = np.arange(len(r)).reshape(len(line), -1)
             self.groups = np.lib.stride_tricks.sliding_window_view(number, (3, 3))[::2, ::2].reshape(-1, 9)
             self.basis, slope = biquadratic(r, s)

@@ -49,9 +49,9 @@ class Discrete(ABC):
 
     Unknowns are x; forces in N; at: load factor or time [s]. norm: order of the norm that residuals are
     measured in; linear: strains are linear in the coordinates, and loads act on the flat sheet. any_strain:
-    whether the law of strain is meant for large strains. lever: the flat sheet's longer side [m]. own:
-    whether the mesh has an outline of its own, in place of the scene's sheet. bodies: the rods, if there are
-    any; commanded: the scene whose chains have the curvatures that the commands' factors multiply."""
+    whether the law of strain is meant for large strains. lever: the flat sheet's longer side [m].
+    own_outline: whether the mesh has its outline in place of the scene's sheet. bodies: the rods, if any;
+    commanded: the scene whose chains have the curvatures that the commands' factors multiply."""
 
     model: ClassVar[str]
     norm: ClassVar[int]
@@ -59,7 +59,7 @@ class Discrete(ABC):
     label: str
     settings: dict[str, Any]
     any_strain: bool = False
-    own: bool = False
+    own_outline: bool = False
     natural: NaturalState | None = None
     plan: Plan
     size: int
@@ -168,7 +168,7 @@ class Discrete(ABC):
     def short(self, shape: SheetShape) -> np.ndarray:
         """Return the step (N,) to the prescribed displacements and onto the constraints, linear in both."""
 
-    def placed(self, q: np.ndarray, at: float) -> np.ndarray:
+    def on_supports(self, q: np.ndarray, at: float) -> np.ndarray:
         """Return q (N,) moved to the prescribed displacements, on the constraints."""
         return self.moved(q, self.short(self.shape(q, at)))
 
@@ -293,7 +293,7 @@ class Discrete(ABC):
     def surface(self, q: np.ndarray) -> Surface:
         """Return the deformed mid-surface with its directors."""
         change = (self.onto_surface @ q).reshape(2, -1, 3)
-        return Surface(self.plan, self.flat + change[0], UP + change[1], self.own)
+        return Surface(self.plan, self.flat + change[0], UP + change[1], self.own_outline)
 
     @abstractmethod
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:

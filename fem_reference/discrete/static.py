@@ -138,7 +138,7 @@ class Static(Creeping[StaticState, Forces]):
         flat = self.sheet.shape(np.zeros(self.sheet.size), 1.0)
         return float(np.abs(self.sheet.displacement(self.sheet.external(flat))).sum())
 
-    def placed(self, state: StaticState, load_factor: float) -> SheetShape:
+    def configuration(self, state: StaticState, load_factor: float) -> SheetShape:
         return self.sheet.shape(state.q, load_factor)
 
     def restarted(self, state: StaticState, before: StaticState, beyond: float) -> tuple[StaticState, float]:

@@ -96,7 +96,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         for kink in self.kinks[np.abs(self.kinks - motion.time) < 1e-9 * self.kinks].tolist():
             if model.jumps(kink):
                 branches = self._branches(motion, kink)
-                restart = self.begin(kink, model.placed(motion.q, kink), motion.v, branches)
+                restart = self.begin(kink, model.on_supports(motion.q, kink), motion.v, branches)
                 motion, work = restart.state, restart.work
         after = self.advance(motion, at_most)
         self._step = motion, spent(model, motion, after, 1.0 - self._rule.af), work
@@ -185,7 +185,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
             exerted = model.mass @ a + model.forces(model.shape(q, time, v, branches))
             return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
-        end = at(model.placed(step.guess, time))
+        end = at(model.on_supports(step.guess, time))
         largest = max(self._largest, self._reach(end.q))
         tolerance = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:

@@ -18,7 +18,7 @@ from fem_reference.motion.observer import ReferenceObserver
 from fem_reference.sheets import SHEETS, division_of
 from fem_reference.vibration import modes
 from sheetbench.answers.history import History
-from sheetbench.choices import REFERENCE, listed
+from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
 from sheetbench.runs.record import Recipe, parted, record
@@ -139,7 +139,7 @@ def require_moving(scene: Scene, model: str) -> None:
     >>> fem_reference.require_moving(load("two-edges-settling"), "shell")
     """
     if model not in SHEETS:
-        raise BadInput(f"reference = '{model}': {listed(SHEETS)} can move")
+        raise BadInput(f"reference = '{model}': has no motion; choose from {', '.join(SHEETS)}")
     for name, actuator in scene.named_actuators().items() if model != "shell" else ():
         if isinstance(actuator, EdgeMotion):
-            raise BadInput(f"actuator {name}: the {model} in motion has no edge motions; the shell has")
+            raise BadInput(f"actuator {name}: the {model} has no edge motions in a run; the shell has")

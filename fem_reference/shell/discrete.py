@@ -92,8 +92,8 @@ class DiscreteShell(DiscreteElements):
         vectors = [(plan.elements, plan.elements), (sides, directors - n)]
         unknowns = (np.hstack([_flat(self.moves[at]), _flat(self.turns[on])]) for at, on in vectors)
         self.pattern = pattern_of(self.places(bound), *unknowns, size=len(self._free))
-        self.unknowns, self.size, self.first_director = self.pattern.size, 6 * n + bound.own.size, 3 * n
-        self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.own])
+        self.unknowns, self.size, self.first_director = self.pattern.size, 6 * n + bound.vectors.size, 3 * n
+        self._upright = np.concatenate([np.tile(UP, (n, 1)), bound.vectors])
         self._held = np.concatenate([supports.position, np.tile(held, (3, 1)).T])
         self.bind(bound)
 
@@ -105,9 +105,9 @@ class DiscreteShell(DiscreteElements):
         if law == STRAIN_LAW:
             element_section = grown(section or section_at(scene, nodes), scene, nodes)
             return Element.build(nodes, element_section), self.natural_of(scene)
-        require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
+        require_uniform(scene, f"the shell's law '{law}'", f"its law '{STRAIN_LAW}' is for all sheets")
         if section is not None:
-            raise BadInput(f"law = '{law}': a section of its own is linear, '{STRAIN_LAW}'")
+            raise BadInput(f"law = '{law}': a given section needs the law '{STRAIN_LAW}'")
         return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
 
     def again(self) -> Callable[[], Self] | None:

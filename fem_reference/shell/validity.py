@@ -29,7 +29,7 @@ from sheetbench.numerics.continuation.path import Fault, Path
 from sheetbench.numerics.continuation.stability import stability
 
 STRETCH_LIMIT = 5.0
-STRETCHED = Fault(Status.UNSTABLE, "elements are stretched too far for how much they bend: divide it evenly")
+STRETCHED = Fault(Status.UNSTABLE, "elements are too long for the bending: use elements of one size")
 FLAT = 1e-6  # share of the element's area in the flat sheet below which it counts as turned inside out
 
 

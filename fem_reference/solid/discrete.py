@@ -251,5 +251,5 @@ class DiscreteSolid(DiscreteElements):
         aside = np.where(self._held_aside, exerted[self.first_director :], 0.0).reshape(-1, 3)
         return [
             (self.columns.positions + self._on_columns(q), applied(np.linalg.inv(turned), held)),
-            (q[self.first_director :].reshape(-1, 3) + self.rods.bound.own, aside),
+            (q[self.first_director :].reshape(-1, 3) + self.rods.bound.vectors, aside),
         ]

@@ -64,7 +64,7 @@ def shape(local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 @dataclass(frozen=True)
 class Reference:
     """Arrays that all elements share. points: (3, q) Gauss points, q = 27; weights: (q,); forms: H (k, 27,
-    27); assumed, lost: (q, 6, k) covariant strains at the Gauss points, engineering shears, from the samples:
+    27); assumed, omitted: (q, 6, k) covariant strains at Gauss points, engineering shears, from the samples:
     the part that interpolation keeps and the part that it drops; levels: (q, q) 1 where two points are of one
     height; modes: (q, 6) of the projection."""
 
@@ -72,7 +72,7 @@ class Reference:
     weights: np.ndarray
     forms: np.ndarray
     assumed: np.ndarray
-    lost: np.ndarray
+    omitted: np.ndarray
     levels: np.ndarray
     modes: np.ndarray
 
@@ -92,11 +92,11 @@ def reference() -> Reference:
         dropped.append(_product([lagrange(site, at) for _, site, at in axes]) - kept[-1])
     modes = np.array([np.ones_like(x), x, y, z, z * x, z * y]).T
     levels = np.isclose(points[2][:, None], points[2]).astype(float)
-    assumed, lost = (  # (q, 6, k): the weights of a component act on its own samples
+    assumed, omitted = (  # (q, 6, k): the weights of a component act on its own samples
         np.array([block_diag(*(w[[q]] for w in of_components)) for q in range(len(weights))])
         for of_components in (kept, dropped)
     )
-    return frozen(Reference(points, weights, np.concatenate(forms), assumed, lost, levels, modes))
+    return frozen(Reference(points, weights, np.concatenate(forms), assumed, omitted, levels, modes))
 
 
 @dataclass(frozen=True)
@@ -119,10 +119,10 @@ class Bricks:
         volumes = ref.weights * np.abs(np.linalg.det(jacobian))
         pull_back = pulled_back(np.linalg.inv(jacobian), IN_SPACE)
         share = volumes[:, None, :] * ref.levels / (volumes @ ref.levels)[:, :, None]
-        retained = _kept(jacobian)[:, None, None, None]
-        lost = pull_back @ ref.lost
-        to_strain = pull_back @ ref.assumed + retained * lost
-        to_strain += np.einsum("eqp,epik->eqik", share, (1.0 - retained) * lost, optimize=True)
+        retained = _retained_share(jacobian)[:, None, None, None]
+        omitted = pull_back @ ref.omitted
+        to_strain = pull_back @ ref.assumed + retained * omitted
+        to_strain += np.einsum("eqp,epik->eqik", share, (1.0 - retained) * omitted, optimize=True)
         return cls(positions, law, material, to_strain, volumes)
 
     @cached_property
@@ -272,7 +272,7 @@ def _under(stress: np.ndarray) -> np.ndarray:
     return (stress @ forms.reshape(len(forms), -1)).reshape(-1, NODES, NODES)
 
 
-def _kept(jacobian: np.ndarray) -> np.ndarray:
+def _retained_share(jacobian: np.ndarray) -> np.ndarray:
     """Return α (m,), the retained share of dropped in-plane shear, of bricks with X_c,ξ_b (m, q, c, b)."""
     sides = np.linalg.norm(jacobian[..., :2], axis=-2).mean(axis=1)
     return np.sqrt(np.maximum(RETAINED_SHEAR**2 - 2.5 * (sides.min(axis=1) / sides.max(axis=1)) ** 2, 0.0))

@@ -112,14 +112,14 @@ def _require_meshable(scene: Scene, law: str) -> None:
         if patch.thickness is not None and (taper or patch.thickness != scene.sheet.thickness):
             raise BadInput(
                 f"patch {number}.thickness = {patch.thickness:g} m: the solid has no steps in its thickness; "
-                "the shell and the plate have"
+                "choose shell or plate"
             )
     if law != STRAIN_LAW:
-        require_uniform(scene, f"the solid's law '{law}'", f"its law '{STRAIN_LAW}' is for others too")
+        require_uniform(scene, f"the solid's law '{law}'", f"its law '{STRAIN_LAW}' is for all sheets")
     if taper and (scene.actuators or any(isinstance(load, Pressure | EdgeLoad) for load in scene.loads)):
         raise BadInput(
-            "sheet.taper_x, sheet.taper_y: the solid has tapered sheets under weight and point loads alone; "
-            "the shell has others too"
+            "sheet.taper_x, sheet.taper_y: the solid takes tapered sheets under weight and point loads; "
+            "choose the shell"
         )
 
 
@@ -134,8 +134,8 @@ def bricks_through(scene: Scene, layers: int) -> int:
         if np.allclose(count * between, np.rint(count * between), rtol=0.0, atol=1e-6):
             return count
     raise BadInput(
-        f"layer: the solid has {MOST_BRICKS} bricks of one height at most through its thickness, and no such "
-        "number has a face between all layers; plate, shell and lattice have them"
+        f"layer: up to {MOST_BRICKS} equal bricks through the thickness have no faces between all layers; "
+        "choose plate, shell or lattice"
     )
 
 

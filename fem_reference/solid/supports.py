@@ -69,7 +69,7 @@ class ColumnSupports:
         levels, middle = self.columns.levels, self.columns.layers
         axes = np.tile(np.eye(3), (len(self.by_mean), 1, 1))
         for driven in self.line.driven:
-            axes[driven.nodes] = np.eye(3) + driven.edge.placed(driven.points, load_factor).turn
+            axes[driven.nodes] = np.eye(3) + driven.edge.displaced(driven.points, load_factor).turn
         with_mean = np.eye(levels)
         with_mean[middle] = self.columns.averages[0]
         spread = np.where(self.by_mean[:, None, None], np.linalg.inv(with_mean), np.eye(levels))

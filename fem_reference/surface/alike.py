@@ -140,7 +140,7 @@ class CentredPlan(NamedTuple):
         return mesh_of_cells(moved(mesh.p.T), mesh.t.T if upright else mesh.t.T[:, ::-1]), moved(places)
 
 
-def placed(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
+def centred(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
     """Return a plan in the last of its eight placements."""
     import shapely
 

@@ -39,13 +39,13 @@ _VALUE, _SLOPE = side_shape(THREE)  # (3 points, 3 nodes)
 
 @dataclass(frozen=True)
 class Surface:
-    """Deformed sheet: its plan, φ [m] and d (n, 3) of the nodes. own: whether the mesh has an outline of its
-    own, in place of the scene's sheet."""
+    """Deformed sheet: its plan, φ [m] and d (n, 3) of the nodes. own_outline: whether the mesh has its
+    outline in place of the scene's sheet."""
 
     plan: Plan
     position: np.ndarray
     director: np.ndarray
-    own: bool = False
+    own_outline: bool = False
 
     def at(self, point: PlanPoint) -> np.ndarray:
         """Return φ (3,) [m] at a plan point [m]."""
@@ -121,10 +121,10 @@ def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
     """Return the total dead force; area loads are left out, as their area is the mesh's own."""
     others = tuple(load for load in scene.loads if not isinstance(load, AreaLoad))
     scene = scene.model_copy(update={"loads": others})
-    if not surface.own and scene.uniform and not scene.pierced:
+    if not surface.own_outline and scene.uniform and not scene.pierced:
         return dead_force(scene)
     mass = float(surface.masses(scene).sum())
-    if not surface.own:
+    if not surface.own_outline:
         return dead_force(scene, mass)
     sides = {name: Line.along(surface.plan, on) for name, on in (surface.plan.mesh.boundaries or {}).items()}
     lengths = {name: float(surface.lengths(line.nodes).sum()) for name, line in sides.items()}

@@ -89,12 +89,12 @@ def pulled_back(inverse: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.nda
 
 
 def integrated(
-    left: np.ndarray, moduli: np.ndarray, areas: np.ndarray, right: np.ndarray | None = None
+    operator: np.ndarray, moduli: np.ndarray, areas: np.ndarray, right: np.ndarray | None = None
 ) -> np.ndarray:
     """Return ∫ Lᵀ C R dA (m, k, k) of L, R (m, q, a, k), R = L by default; C: (a, a) or (m, q, a, a)."""
-    m, q, a, k = left.shape
-    weighed = (moduli @ (left if right is None else right)) * areas[:, :, None, None]
-    flat = left.reshape(m, q * a, k).swapaxes(1, 2)
+    m, q, a, k = operator.shape
+    weighed = (moduli @ (operator if right is None else right)) * areas[:, :, None, None]
+    flat = operator.reshape(m, q * a, k).swapaxes(1, 2)
     return np.asarray(flat @ weighed.reshape(m, q * a, -1))
 
 

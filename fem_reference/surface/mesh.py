@@ -185,7 +185,7 @@ def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
         if abs(covered - size) > BESIDE * size:
             raise BadInput(
                 f"sheet.mesh: its sides do not lie on the border of the {shape.in_words()}: elements with "
-                f"their middles there are {100.0 * covered / size:.3g} % of the part; mesh it by itself"
+                f"their middles there are {100.0 * covered / size:.3g} % of the part; give it its own mesh"
             )
 
 

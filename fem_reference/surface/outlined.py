@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.surface.alike import DIGITS, CentredPlan, PlanCells, mesh_of_cells, placed, reflection
+from fem_reference.surface.alike import DIGITS, CentredPlan, PlanCells, centred, mesh_of_cells, reflection
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
     NEAR,
@@ -63,7 +63,7 @@ def quadrilaterals(
     from shapely import affinity
 
     unit = 2.0 * np.array(spacing)
-    plan = placed(*(affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner)))
+    plan = centred(*(affinity.scale(part, *(1.0 / unit), origin=(0.0, 0.0)) for part in (region, inner)))
     region, inner = plan.part
     borders = plan.turned(borders_between_corners(region, inner))
     across = np.min(np.ptp(np.reshape(plan.region.bounds, (2, 2)), axis=0))

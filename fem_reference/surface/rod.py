@@ -201,13 +201,13 @@ def hold_bases(supports: Supports, rods: Sequence[Rod]) -> Supports:
 @dataclass(frozen=True)
 class BoundRods:
     """Rods of a scene among the vectors (N, 3) of a model, the sheet's first, then the rods' own. elements:
-    all rods' sides; sites: (k, a) of Q among the model's vectors; own: the rods' own vectors at rest (q, 3),
-    which come last; held: (q,) whether a base holds them."""
+    all rods' sides; sites: (k, a) of Q among the model's vectors; vectors: of the rods at rest (q, 3),
+    the last ones; held: (q,) whether a base holds them."""
 
     rods: tuple[Rod, ...]
     elements: RodElements
     sites: np.ndarray
-    own: np.ndarray
+    vectors: np.ndarray
     held: np.ndarray
 
     def by_rod(self, of_sides: np.ndarray) -> list[np.ndarray]:

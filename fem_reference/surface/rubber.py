@@ -41,6 +41,6 @@ def require_law(law: str, laws: Iterable[str], scene: Scene) -> None:
     if law in WORDS and scene.material.law != law:
         keys = " and ".join(WORDS[law].keys)
         raise BadInput(
-            f"law = '{law}': the material has no constants of it; give the scene [material] law = '{law}' "
+            f"law = '{law}': the material lacks its constants; give the scene [material] law = '{law}' "
             f"with {keys}, or take law = 'neo-hookean', which needs none"
         )

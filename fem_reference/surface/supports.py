@@ -65,8 +65,8 @@ class Supports:
         motions, their last samples where None."""
         out = np.zeros((2, len(self.director), 3))
         for driven in self.driven:
-            placed = driven.edge.placed(driven.points, load_factor, time)
-            out[0, driven.nodes], out[1, driven.nodes] = placed.displacement, placed.director
+            displaced = driven.edge.displaced(driven.points, load_factor, time)
+            out[0, driven.nodes], out[1, driven.nodes] = displaced.displacement, displaced.director
         if self.shifts:
             out[0] += (load_factor if time is None else 1.0) * self.shift(time)
         return out

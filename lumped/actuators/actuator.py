@@ -54,7 +54,7 @@ class RigidMotion:
 
     def driven(self, drive: Drive) -> np.ndarray:
         """Return the displacement (m, 3) [m] of the masses."""
-        return self._moved.placed(self._plan, drive.load_factor, drive.time).lifted(self._height)
+        return self._moved.displaced(self._plan, drive.load_factor, drive.time).lifted(self._height)
 
     def velocity(self, time: float) -> np.ndarray:
         """Return the velocity (m, 3) [m/s] of the masses from a time [s] on."""

@@ -40,7 +40,7 @@ class GridCells:
     @cached_property
     def present(self) -> tuple[np.ndarray, CellSection]:
         """Sides (m, 2) [m] and section (m, …) of the covered cells."""
-        return self.sides[self.covered], self.section.each(lambda part: part[self.covered])
+        return self.sides[self.covered], self.section.map(lambda part: part[self.covered])
 
     @cached_property
     def target(self) -> moduli.Moduli:
@@ -72,7 +72,7 @@ def each_cell(
     widths = [[across.mean] if even else across.widths for across in lines]
     if section is None:
         plain = CellSection.of(Constants.of(sheet, material))
-        section = plain.each(
+        section = plain.map(
             lambda part: part[None, None] if even else np.broadcast_to(part, (*shape, *part.shape))
         )
     sides = np.stack(np.meshgrid(*widths), axis=-1)

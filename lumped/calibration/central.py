@@ -49,8 +49,8 @@ def central(grid_cells: GridCells) -> tuple[Springs, list[str]]:
     many layers of cells much wider than the sheet is thick."""
     a, b, c, bent, stretched, cauchys = coefficients(grid_cells.material.poisson).tolist()
     cost = (
-        f"the moduli make the worst of the training scenes wrong by {bent:.1%} where they bend and by "
-        f"{stretched:.1%} where they stretch; those of 'cauchy' by {cauchys:.1%} where they bend"
+        f"largest errors on the training scenes: {bent:.1%} in bending, {stretched:.1%} in stretching; "
+        f"of 'cauchy' {cauchys:.1%} in bending"
     )
     return _links("central", grid_cells, a, b, c, lambda got: np.sqrt(got[0, 0] * got[1, 1])), [cost]
 

@@ -70,12 +70,12 @@ def consistent(
             )
             if grid_cells.target.mixed.any():
                 raise BadInput(
-                    f"layer: not symmetric about the middle: no springs with {given} stretch and bend "
-                    "as they do; take two layers and no layer distance of your own, or the shell"
+                    f"layer: not symmetric about the middle: no springs with {given} match the laminate; "
+                    "take two layers without a layer distance, or the shell"
                 ) from None
             raise BadInput(
                 f"grading = {grading:g}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
-                "has no closed form; take two layers, no layer distance of your own, or grading 0"
+                "has no closed form; take two layers without a layer distance, or grading 0"
             ) from None
         springs = fit_moduli(grid_cells, layer_distance)
     notes: list[str] = []
@@ -83,7 +83,7 @@ def consistent(
     if cell_moduli.mixed[
         ..., :2, 2
     ].any():  # the moment that fades at an edge depends on the stretch along it too
-        notes = ["layers that twist when pulled: cells along edges are like those inside, of first order"]
+        notes = ["layers that twist when pulled: cells along edges are not corrected, the order is 1"]
     elif method != "consistent-interior":
         springs, notes = with_twist(grid_cells, springs, cell_moduli)
     return replace(report(method, grid_cells, springs, notes, cell_moduli), of_material=of_material)

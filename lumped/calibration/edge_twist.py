@@ -89,8 +89,8 @@ class Strips(NamedTuple):
         with two free edges and cells finer towards one has the f of the strip and its mirror image as one."""
         factor, step = np.ones(len(count)), -1 if far else 1
         for cells in set(count.tolist()):
-            chosen = count == cells
-            at = place[chosen], cell[chosen]
+            usable = count == cells
+            at = place[usable], cell[usable]
             if self.lines is None:
                 strips, number = [part[at][:, None] for part in self.twist[:4]], cells
             else:
@@ -99,7 +99,7 @@ class Strips(NamedTuple):
                 strips[0] = np.repeat(strips[0], number, axis=1)
             elif both and self.lines is not None and not symmetric(self.lines):
                 strips = [np.hstack([row, row[:, ::-1]]) for row in strips]
-            factor[chosen] = edge_factors(
+            factor[usable] = edge_factors(
                 strips[0], strips[1], strips[2], strips[3], self.twist.lost[at], both
             )
         all_found = bool(np.all(factor > 0.0))

@@ -21,7 +21,7 @@ from sheetbench.errors import Impossible
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.objects.grading import Graded
-from sheetbench.scenes.objects.grid import MASSES, Grid, grid_of
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES, Grid, grid_of
 
 SPRINGS: dict[str, Callable[..., Springs | tuple[Springs, list[str]]]] = {  # or springs with notes
     "moduli": fit_moduli,
@@ -81,26 +81,26 @@ def given(
     """
     if (table := scene.springs) is None:
         raise Impossible(f"scene '{scene.name}' has no [springs] table")
-    requested = grid_of(scene.sheet, grid if grid is not None else table.grid or MASSES)
+    requested = grid_of(scene.sheet, grid if grid is not None else table.grid or DEFAULT_MASSES)
     if table.grid not in (None, requested):
-        named, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
+        stored, other = ("x".join(map(str, numbers)) for numbers in (table.grid, requested))
         raise Impossible(
-            f"scene '{scene.name}': springs.grid = {named}: these springs are not those of {other} masses; "
-            f"solve on {named}, or find others: sheetbench calibrate --grid {other} --toml"
+            f"scene '{scene.name}': springs.grid = {stored}: the springs are not for a grid of {other}; "
+            f"solve on {stored}, or calibrate: sheetbench calibrate --grid {other} --toml"
         )
     graded = table.graded(scene.sheet.lengths)
     if grading not in (None, graded):
         raise Impossible(
-            f"scene '{scene.name}': springs.grading = {graded:g}: these springs are not those of "
-            f"grading {grading:g}; leave --grading out, or find others: "
+            f"scene '{scene.name}': springs.grading = {graded:g}: the springs are not for "
+            f"grading {grading:g}; leave --grading out, or calibrate: "
             f"sheetbench calibrate --grading {grading:g} --toml"
         )
     require_cells(table, requested, f"scene '{scene.name}': ")
     springs = Springs.read(table)
     if table.grading and not springs.varies and requested[:2] != (2, 2):
         raise Impossible(
-            f"scene '{scene.name}': springs.grading = {graded:g}: unequal cells have springs of their "
-            f"own, and these are the same for all: sheetbench calibrate --grading {graded:g} --toml"
+            f"scene '{scene.name}': springs.grading = {graded:g}: unequal cells need unequal "
+            f"springs, and all are equal; calibrate: sheetbench calibrate --grading {graded:g} --toml"
         )
     cells = sections_of(scene, requested, graded)
     grid_cells = each_cell(scene.sheet, scene.material, requested, graded, cells if springs.varies else None)

@@ -41,9 +41,9 @@ def report(
     square = np.abs(sides[:, 0] - sides[:, 1]) < EQUAL * sides[:, 0]
     oblique, mixed = bool(sheet.oblique.any()), bool(sheet.mixed.any())
     square &= (np.abs(rigidity - rigidity_y) < EQUAL * rigidity) & (not mixed)
-    named = not oblique and bool(np.all(square)), oblique, mixed
-    names = sheet.named(*named)
-    targets, results = (np.array([*of.values()]) for of in (names, got.named(*named)))
+    selected = not oblique and bool(np.all(square)), oblique, mixed
+    names = sheet.named(*selected)
+    targets, results = (np.array([*of.values()]) for of in (names, got.named(*selected)))
     both = np.sqrt(names["A11"] * names["D11"])  # the size of B
     sizes = np.array([both if name[0] == "B" else np.abs(names[_reference(name)]) for name in names])
     misses = (results - targets) / np.where(targets == 0.0, sizes, targets)

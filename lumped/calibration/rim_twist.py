@@ -66,8 +66,8 @@ def with_twist(
         (places, first), (_, last) = (np.nonzero(rows & ~other.T) for other in _neighbours(rows.T, False))
         for far in (False, True)[: 1 + unequal]:
             cells, outer = (last, rows.shape[1] - 1) if far else (first, 0)
-            chosen = usable[places, cells]
-            place, cell, count = places[chosen], cells[chosen], (last - first)[chosen] + 1
+            existing = usable[places, cells]
+            place, cell, count = places[existing], cells[existing], (last - first)[existing] + 1
             strip, strip_exists = strips.reduction(place, cell, count, far, True)
             whole_row = count == rows.shape[1]
             edge = strip.copy()
@@ -75,7 +75,7 @@ def with_twist(
             edge[whole_row], edge_exists = strips.reduction(*ends, far, False)
             if not (strip_exists and edge_exists):
                 name = "a rim" if drawn else f"{'xy'[axis]}{int(far)}"
-                notes.append(f"no twisting stiffness of the cells along {name} makes their edge right")
+                notes.append(f"no twisting stiffness of the cells along {name} corrects their edge")
             inside, stretch = cell != outer, of_axis.stretch[place, cell]
             if drawn:
                 strain = along_edge(axis, stretch[inside])

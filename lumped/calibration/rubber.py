@@ -100,6 +100,5 @@ def _require_one_thickness(cells: CellSection | None) -> None:
     squares = cells.bending[covered, 0, 0] / cells.membrane[covered, 0, 0]
     if np.ptp(squares) > EQUAL * squares.max():
         raise BadInput(
-            "calibration 'hyperelastic': a lattice of rubber is as thick all over, and this sheet's "
-            "thickness differs; choose consistent, whose strains are small"
+            "calibration 'hyperelastic': needs one thickness all over; choose consistent, for small strains"
         )

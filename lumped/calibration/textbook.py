@@ -64,7 +64,7 @@ def lloyd(grid_cells: GridCells, layer_distance: float | None = None) -> Springs
     normal, mixed = (c * ratios + c66 / ratios) / 6.0, (c12 + c66) / 4.0
     diagonal = (np.sum(sides**2 * normal) + 2.0 * sides.prod() * mixed) / np.sum(sides**2)
     if along.min() < 0.0:
-        raise BadInput("calibration 'lloyd': cells this much longer than wide ask for negative springs")
+        raise BadInput("calibration 'lloyd': cells this much longer than wide would need negative springs")
     return _with_layers(grid_cells, layer_distance, along, diagonal)
 
 

@@ -52,21 +52,21 @@ def resolve_integrator(name: str, system: System, options: Collection[str] = ())
     (`docs/contact.md`). options: options of the run. Raises BadInput for an option that the integrator does
     not take.
     """
-    why = ""
+    reason = ""
     if name == AUTO:
         unsupported = [option for option in options if option not in Esdirk.options]
-        name, why = Esdirk.name, "least time at equal error"
+        name, reason = Esdirk.name, "least time at equal error"
         if system.coupling is not None:
-            name, why = GeneralisedAlpha.name, f"{why}, with chains"
+            name, reason = GeneralisedAlpha.name, f"{reason}, with chains"
         elif unsupported and set(options) <= set(GeneralisedAlpha.options):
-            name, why = GeneralisedAlpha.name, f"{why}, that takes {', '.join(unsupported)}"
+            name, reason = GeneralisedAlpha.name, f"{reason}, that takes {', '.join(unsupported)}"
         elif system.items and set(options) <= set(Verlet.options):
             shorter = 1.0 / step_limit(system, system.prescribed.place(0.0)).share
             if shorter * SHORTEST <= 1.0:
-                name, why = Verlet.name, f"{why}, with obstacles"
+                name, reason = Verlet.name, f"{reason}, with obstacles"
             else:
-                why = f"{why}, as dampers make explicit steps {shorter:.2g} times shorter"
+                reason = f"{reason}, as dampers make explicit steps {shorter:.2g} times shorter"
     foreign = [option for option in options if option not in INTEGRATORS[name].options]
     if foreign:
         raise BadInput(f"integrator = {name!r}: does not take {', '.join(foreign)}")
-    return name, why
+    return name, reason

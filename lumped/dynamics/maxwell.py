@@ -38,7 +38,7 @@ class Maxwell:
         self._places = [slice(*both) for both in pairwise(ends)]
         self.times = np.array(branches.times)
         count = len(self.times)
-        self.now = branches.begun(np.ones(count), np.zeros((count, 2, ends[-1])))
+        self.now = branches.stepped(np.ones(count), np.zeros((count, 2, ends[-1])))
 
     def _with_step(self, now: BranchStep) -> Maxwell:
         other = copy(self)
@@ -58,17 +58,19 @@ class Maxwell:
         """Return the branches `ahead` [s] after a state with a given memory."""
         return self._with_step(self.branches.step(memory, ahead))
 
-    def stage(self, start: np.ndarray, relaxed: np.ndarray, own: float) -> Maxwell:
-        """Return the branches of a stage: start: the step's memory; relaxed: h Σ_j a_ij R_j (b, 2, m); own:
-        h γ [s]."""
-        weight = 1.0 / (1.0 + own / self.times)
+    def stage(self, start: np.ndarray, relaxed: np.ndarray, h_gamma: float) -> Maxwell:
+        """Return the branches of a stage. start: the step's memory; relaxed: h Σ_j a_ij R_j (b, 2, m);
+        h_gamma: h γ [s]."""
+        weight = 1.0 / (1.0 + h_gamma / self.times)
         gone = start[0] - start[1:] + relaxed / self.times[:, None, None]
-        return self._with_step(self.branches.begun(weight, -weight[:, None, None] * gone))
+        return self._with_step(self.branches.stepped(weight, -weight[:, None, None] * gone))
 
-    def add_force(self, u: np.ndarray, force: np.ndarray, own: float | None = None) -> float:
+    def add_force(self, u: np.ndarray, force: np.ndarray, spring_factor: float | None = None) -> float:
         """Add the springs' force with their branches' to `force` (n, 3) [N]; return the springs' energy [J],
-        branches excluded. own: factor of the springs' law, `gain` unless given."""
-        return self._add_forces(u, force, self.gain if own is None else own, self.now.past)[0]
+        branches excluded. spring_factor: factor of the springs' law, `gain` unless given."""
+        return self._add_forces(
+            u, force, self.gain if spring_factor is None else spring_factor, self.now.past
+        )[0]
 
     def after(self, u: np.ndarray) -> np.ndarray:
         """Return the memory at displacement u (n, 3) [m] in the current step or stage."""
@@ -86,20 +88,20 @@ class Maxwell:
         self.add_branch_force(middle, 0.5 * (before + self.after(u)), force)
 
     def _add_forces(
-        self, u: np.ndarray, force: np.ndarray, own: float, past: np.ndarray
+        self, u: np.ndarray, force: np.ndarray, spring_factor: float, past: np.ndarray
     ) -> tuple[float, np.ndarray]:
         energy, x = 0.0, np.empty((2, len(past)))
         for family, place in zip(self._families, self._places, strict=True):
             shape = len(family), family.measures
             stress, change = (part[place].reshape(shape) for part in x)
-            branches = own, past[place].reshape(shape), stress, change
+            branches = spring_factor, past[place].reshape(shape), stress, change
             energy += family.loops.add_forces(u, family.arrays, force, branches)
         return energy, x
 
-    def stresses(self, u: np.ndarray, own: float, past: float) -> list[np.ndarray]:
+    def stresses(self, u: np.ndarray, spring_factor: float, past: float) -> list[np.ndarray]:
         """Return the stresses of every family for its tangent: own × the springs' stress at u plus past × the
         branches' constant stress in the step."""
         _, x = self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)
-        both = own * x[0] + past * self.now.past
+        both = spring_factor * x[0] + past * self.now.past
         pairs = zip(self._families, self._places, strict=True)
         return [both[place].reshape(len(f), *(f.measures,) * (f.measures > 1)) for f, place in pairs]

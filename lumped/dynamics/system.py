@@ -23,7 +23,7 @@ from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping, MovingForces, add_forces
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
-from lumped.items import Placed
+from lumped.items import Deformed
 from lumped.masses import masses
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
@@ -204,7 +204,7 @@ class System:
             item.add_force((end, drive), force, since)
         return force
 
-    def ends(self, start: State, middle: float) -> tuple[Placed, Drive]:
+    def ends(self, start: State, middle: float) -> tuple[Deformed, Drive]:
         """Return displacement and commands at a step's start, and the commands at its end."""
         return (start.u, self.drive(start.time)), self.drive(2.0 * middle - start.time)
 
@@ -245,7 +245,7 @@ class System:
             item.add_resistance_tangent((u, self.drive(time)), v, damping, blocks)
         return blocks
 
-    def within(self, state: State, ahead: float = 0.0) -> System:
+    def for_step(self, state: State, ahead: float = 0.0) -> System:
         """Return the equations with the branches of a step of second order, `ahead` [s] after a state."""
         if self.maxwell is None or state.memory is None:
             return self
@@ -285,7 +285,7 @@ class System:
     def balance(self, state: State) -> tuple[dict[str, float], np.ndarray]:
         """Return kinetic, elastic and potential energy [J], the potential of constant dead loads alone, and
         the force M a + f_int + f_damp − f_ext, (size, 3) [N], of supports and actuators on their masses."""
-        elastic, _, force = self.within(state).internal(state.u, state.v, state.time)
+        elastic, _, force = self.for_step(state).internal(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             elastic += self.maxwell.branches.stored(state.memory)
         energies = {

@@ -129,7 +129,7 @@ class FittedCalibration(Calibration):
             FitRow(name, shares.get(name, "of itself"), width if np.isfinite(width) else None)
             for name, width in widths.items()
         ]
-        caption = "What the data tell of each spring: 95 % intervals"
+        caption = "Springs and their 95 % intervals from the data"
         return (*super().tables(), Table.of(FitRow, rows, caption, "fit"))
 
     def notes(self) -> tuple[str, ...]:

@@ -104,8 +104,8 @@ def identifiability(
         undetermined |= members
         names_in = ", ".join(name for name, member in zip(names, members, strict=True) if member)
         warnings.append(
-            f"the data do not see a combination of {names_in}: changed together they leave what was measured "
-            "as it is; seek fewer, or measure what distinguishes them"
+            f"the data do not determine a combination of {names_in}: changed together they do not change the "
+            "measured values; seek fewer, or measure other points"
         )
     size = np.sqrt(np.diag(covariance))
     deviations = np.where(undetermined, 0.0, size)
@@ -113,6 +113,6 @@ def identifiability(
     correlation = np.divide(covariance, scale, out=np.zeros_like(scale), where=scale > 0.0)
     for i, j in np.argwhere(np.tril(np.abs(correlation), -1) > CORRELATED):
         shown = f"{correlation[i, j]:+.3f}".replace("-", "−")
-        warnings.append(f"the data cannot tell {names[j]} from {names[i]} (correlation {shown})")
+        warnings.append(f"the data cannot distinguish {names[j]} from {names[i]} (correlation {shown})")
     widths = np.where(undetermined, np.inf, reach * size)
     return Identifiability(singular, dict(zip(names, widths.tolist(), strict=True)), tuple(warnings))

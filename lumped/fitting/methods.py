@@ -15,7 +15,7 @@ from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.objects.grading import Graded
-from sheetbench.scenes.objects.grid import MASSES, grid_of
+from sheetbench.scenes.objects.grid import DEFAULT_MASSES, grid_of
 from sheetbench.scenes.objects.quantities import require_positive
 
 MAKERS = CLOSED | {
@@ -28,7 +28,7 @@ UNITS = {"k": "N/m", "layer_distance": "m"}
 def calibrate(
     sheet: Sheet,
     material: Material,
-    grid: int | Sequence[int] = MASSES,
+    grid: int | Sequence[int] = DEFAULT_MASSES,
     method: str = CALIBRATION,
     k: float | None = None,
     layer_distance: float | None = None,

@@ -274,7 +274,7 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
 
     def kept_cells(values: np.ndarray) -> np.ndarray:
         spread = np.broadcast_to(values, (*shape, *values.shape[2:]))
-        return spread.reshape(-1, *values.shape[2:])[lattice.kept]
+        return spread.reshape(-1, *values.shape[2:])[lattice.present_cells]
 
     kinds = (
         ("area", lattice.layer_cells, "cells", layers),
@@ -283,13 +283,13 @@ def cell_springs(lattice: Lattice, pattern: MassPattern, springs: Constants) -> 
     for of_cells, at_rest, name, repeats in kinds:
         if of_cells == "area" and springs.rubber:
             sides, area = (part[: len(part) // repeats] for part in at_rest[1:])
-            squares, twist = (sides**2).sum(axis=2), edges[lattice.kept, 2]
+            squares, twist = (sides**2).sum(axis=2), edges[lattice.present_cells, 2]
             of_layer = of_rubber(springs, squares, area, twist, kept_cells)
             stiffness, constants = (np.concatenate([part] * repeats) for part in of_layer)
             yield _cells(at_rest, pattern, stiffness, "rubber", RUBBER, constants)
             continue
         strains = kept_cells(springs.strains(of_cells))
-        strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.kept]
+        strains = strains + (1 if of_cells == "area" else -layers) * edges[lattice.present_cells]
         stiffness = np.concatenate(
             [np.column_stack([kept_cells(springs.along(of_cells, 0)), strains])] * repeats
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -24,8 +24,10 @@ def solution(
     calibration: Calibration,
     seconds: tuple[float, float],
     requested: dict[str, Any],
+    sensitivity: Callable[[], Any] | None,
 ) -> Solution:
-    """Return the solution at the end of a path; requested: the options that are not their defaults."""
+    """Return the solution at the end of a path. requested: the options that are not their defaults;
+    sensitivity: the answer's derivatives, None if it has none."""
     state, assembly = path.state, problem.assembly  # they outlive the solve
     u, lattice = state.u, assembly.lattice
     linear = requested.get("linear", False)
@@ -62,6 +64,7 @@ def solution(
         contacts={name: contact for name, (contact, _) in contacts.items()},
         snaps=tuple(path.snaps),
         remarks=tuple(path.notes),
+        sensitivity=sensitivity,
     )
 
 

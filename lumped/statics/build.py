@@ -24,7 +24,7 @@ def build_problem(
     scene: Scene,
     calibration: Calibration,
     weights: Weights = "tributary",
-    same: Problem | None = None,
+    previous: Problem | None = None,
 ) -> Problem:
     """Return the lattice of a scene under its supports and loads.
 
@@ -36,7 +36,7 @@ def build_problem(
         Springs of the lattice.
     weights : {"tributary", "full"}, default "tributary"
         Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
-    same : Problem, optional
+    previous : Problem, optional
         Problem of this scene with other springs, whose supports and loads are reused on an equal lattice.
 
     Returns
@@ -60,9 +60,9 @@ def build_problem(
     lines = assembly.lattice.lines
     if (state := natural_of_cells(stretched(scene, assembly), *(line.at for line in lines))) is not None:
         assembly.grow(state)
-    on_lattice = same is not None and same.assembly.lattice is assembly.lattice
-    if same is not None and on_lattice and couple is None and assembly.natural is None:
-        return Problem(scene, assembly, same.constraints, same.loads, same.items)
+    on_lattice = previous is not None and previous.assembly.lattice is assembly.lattice
+    if previous is not None and on_lattice and couple is None and assembly.natural is None:
+        return Problem(scene, assembly, previous.constraints, previous.loads, previous.items)
     constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)

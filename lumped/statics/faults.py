@@ -16,8 +16,8 @@ from sheetbench.numerics.continuation.path import Fault
 
 COLLAPSED = 1e-6  # of a link's rest length
 FAULTS = (  # by the number that `soundness.examine` returns
-    (Status.NON_FINITE, "the mass at {} has left the range of numbers"),
-    (Status.INVERTED, "the link at {} has no length left: refine the grid"),
+    (Status.NON_FINITE, "the displacement of the mass at {} has overflowed"),
+    (Status.INVERTED, "the link at {} has collapsed to a point: refine the grid"),
     (Status.INVERTED, "the cell at {} has turned inside out: refine the grid"),
 )
 

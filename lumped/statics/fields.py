@@ -62,7 +62,7 @@ def field_mesh(
             if family.law is FACE:
                 faces, count = lattice.faces, lattice.cell_areas.size
                 stored = faces.shares * (energy / faces.shares.sum(axis=0))
-                energy = np.bincount(faces.cells.ravel(), stored.ravel(), count)[lattice.kept]
+                energy = np.bincount(faces.cells.ravel(), stored.ravel(), count)[lattice.present_cells]
             layers = quads // len(energy)
             cell_energy += np.tile(energy / layers, layers)
     elongation = links.stretched(small)[2] / part

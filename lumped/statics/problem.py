@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.contact import Contact
-from lumped.items import LatticeItem, Placed
+from lumped.items import Deformed, LatticeItem
 from lumped.loads import Loads
 from lumped.springs.all_families import Stresses, Survey
 from lumped.statics.correction import advance, unbalanced_force
@@ -233,7 +233,7 @@ class Problem(Structure[LatticeState, Residual]):
         if assembly.coupling is not None:
             by_row = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
             carried = float(np.linalg.norm(by_row))
-        at = self.placed(state, state.load_factor)
+        at = self.configuration(state, state.load_factor)
         return assembly.rounding * carried + sum(item.rounding(at) for item in self.items)
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
@@ -306,7 +306,7 @@ class Problem(Structure[LatticeState, Residual]):
     def loading(self) -> float:
         return float(np.abs(self.external(np.zeros_like(self.loads.dead), 1.0)).sum())
 
-    def placed(self, state: LatticeState, load_factor: float) -> Placed:
+    def configuration(self, state: LatticeState, load_factor: float) -> Deformed:
         return state.u, Drive(load_factor)
 
     def restarted(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache, partial
 from typing import Literal
 
@@ -127,10 +126,9 @@ def solve(
     seconds = ready_time - start_time, now() - ready_time
     options = {"branch": (branch, "path"), "weights": (weights, "tributary"), "linear": (linear, False)}
     requested = {name: value for name, (value, default_value) in options.items() if value != default_value}
-    result = solution(problem, path, calibration, seconds, requested)
-    if linear or weights != "tributary":
-        return result
-    return replace(result, sensitivity=partial(Equilibrium.of, scene, calibration, path.state.u, calibrate))
+    derivatives = partial(Equilibrium.of, scene, calibration, path.state.u, calibrate)
+    differentiable = not linear and weights == "tributary"
+    return solution(problem, path, calibration, seconds, requested, derivatives if differentiable else None)
 
 
 @cache
@@ -201,7 +199,7 @@ def solve_from_best_start(
     """Return the path to the equilibrium at full load, started from `near` (n, 3) [m] or, for a large
     lattice, from the equilibrium of the lattice with half as many cells a side."""
     if near is not None and near.shape != problem.loads.dead.shape:
-        raise BadInput(f"near: of shape {near.shape}, and the lattice's {problem.loads.dead.shape}")
+        raise BadInput(f"near: shape {near.shape}; the lattice needs {problem.loads.dead.shape}")
     if problem.assembly.coupling is not None:  # its unknowns depend on the grid
         return solve_path(problem, progress=progress)
     may_start_coarser = near is None and not problem.items  # contact points differ on another grid

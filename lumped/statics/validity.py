@@ -97,8 +97,8 @@ def layers(problem: Problem, state: LatticeState, survey: Survey) -> str:
         return ""
     where = place(lattice, int(lattice.columns()[j, i, 0]))
     return (
-        f"not unique to the sheet but to this grid: cells {few(ratio)} times as long as the layer in which "
-        f"it stretches ({few(1e3 * width)} mm near {where}); refine the grid until the answer stays"
+        f"the answer may depend on the grid: cells {few(ratio)} times as long as the layer where the sheet "
+        f"stretches ({few(1e3 * width)} mm near {where}); refine the grid until the answer stays equal"
     )
 
 
@@ -109,7 +109,7 @@ def slender_cells(lattice: Lattice) -> str:
     if times < SLENDER:
         return ""
     return (
-        f"cells are up to {few(times)} times as long as wide, and may give way where the sheet does not: use "
+        f"cells are up to {few(times)} times as long as wide, and may buckle where the sheet does not: use "
         "less grading, or more masses across"
     )
 

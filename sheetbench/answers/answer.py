@@ -56,7 +56,7 @@ class Answer(ABC):
         return ()
 
     def complaints(self) -> Sequence[str]:
-        """Return sentences on failures and doubts."""
+        """Return sentences on failures and warnings."""
         return ()
 
     def files(self) -> Mapping[str, Write]:

@@ -41,20 +41,20 @@ class Balance:
     objective: bool = True
 
     @property
-    def left(self) -> float:
+    def residual(self) -> float:
         """Return the larger of the force and of the moment over the arm [N]."""
         moment = math.hypot(*self.moment.tolist()) / self.arm if self.objective else 0.0
         return max(math.hypot(*self.force.tolist()), moment)
 
     @property
     def relative(self) -> float:
-        """Return `left` over the size of the forces; 0 without forces."""
-        return self.left / self.size if self.size > 0.0 else 0.0
+        """Return `residual` over the size of the forces; 0 without forces."""
+        return self.residual / self.size if self.size > 0.0 else 0.0
 
     @property
     def holds(self) -> bool:
         """Return whether the residual is within the allowed one."""
-        return self.left <= self.allowed
+        return self.residual <= self.allowed
 
     def in_words(self) -> str:
         """Return a clause on the residual."""

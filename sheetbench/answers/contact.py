@@ -39,7 +39,7 @@ class ContactState:
 
     @property
     def notes(self) -> list[str]:
-        """Return clauses on doubts."""
+        """Return clauses on deep penetration and undecided points."""
         deep = f"the sheet is pressed in by {self.penetration:.2g} of its thickness"
         near = f"{self.undecided} points are about to touch or to leave: stability undecided"
         return [deep] * (self.penetration > DEEP) + [near] * (self.undecided > 0)

@@ -48,7 +48,7 @@ def parse_figure(text: str | None) -> tuple[FigureStyle, ...]:
         name, colon, given = (part.strip() for part in item.partition(":"))
         require_choice("--figure", name, FORMATS)
         if name in width_of:
-            raise BadInput(f"--figure = '{text}': {name} is there twice, and has one file")
+            raise BadInput(f"--figure = '{text}': {name} is named twice")
         if colon:
             require_choice("the width in --figure", given, WIDTHS)
             width = given

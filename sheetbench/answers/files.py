@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from sheetbench.errors import BadInput
-from sheetbench.files import whole
+from sheetbench.files import replacing
 
 
 def write_text(path: Path, text: str) -> None:
@@ -20,7 +20,7 @@ def write_text(path: Path, text: str) -> None:
 
     Bytes of a file's name that are not UTF-8 become \\udcXX, as in JSON.
     """
-    with whole(path) as partial:
+    with replacing(path) as partial:
         partial.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
@@ -34,7 +34,7 @@ def folder(path: Path | str, option: str = "--out") -> Path:
     try:
         made.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        why = "a link to nothing stands there" if made.is_symlink() else error.strerror
+        why = "a link to nothing is there" if made.is_symlink() else error.strerror
         raise BadInput(f"{option} = '{path}': cannot make this folder: {why}") from None
     if not os.access(made, os.W_OK | os.X_OK):
         raise BadInput(f"{option} = '{path}': cannot be written to; make it writable, or choose another")

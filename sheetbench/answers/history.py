@@ -116,8 +116,8 @@ class History(Answer):
     def gradient(self, *_: Any, **__: Any) -> None:
         """Refuse adjoint derivatives, which motions do not have, by name: BadInput."""
         raise BadInput(
-            "gradient: a motion has no derivatives by an adjoint in time; lumped.simulate(..., sensitivities="
-            "['young']) has those by up to 20 parameters"
+            "gradient: a motion has no adjoint in time; lumped.simulate(..., sensitivities=['young']) has "
+            "derivatives by up to 20 parameters"
         )
 
     def heading(self) -> tuple[str, str, str]:

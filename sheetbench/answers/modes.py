@@ -13,7 +13,7 @@ from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import HERTZ, NUMBER, Table
 from sheetbench.errors import BadInput
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted
-from sheetbench.scenes.objects.loads import EdgeLoad, Pressure
+from sheetbench.scenes.objects.loads import EdgeLoad
 from sheetbench.scenes.scene import Scene
 
 STILL = 1e-9  # displacement over the sheet's side below which a loaded sheet does not move
@@ -78,12 +78,11 @@ def require_flat_and_dead(scene: Scene) -> None:
     """Raise BadInput for a scene without a linear buckling load. The sheet must be flat, without actuators
     and bent or tilted supports, and its loads dead."""
     for number, load in enumerate(scene.loads, start=1):
-        follower = "kind = 'pressure'" if isinstance(load, Pressure) else ""
-        if isinstance(load, EdgeLoad) and load.moment_per_length:
-            follower = f"moment_per_length = {load.moment_per_length:g} N·m/m"
-        if follower:
-            raise BadInput(f"load {number}.{follower}: it follows the sheet; buckling is of dead loads")
+        if load.follows:
+            key = "moment_per_length" if isinstance(load, EdgeLoad) else "kind"
+            value = getattr(load, key)
+            raise BadInput(f"load {number}.{key} = {value!r}: follows the sheet; buckling needs dead loads")
     if scene.actuators:
-        raise BadInput("actuator 1: buckling is of a sheet without actuators")
+        raise BadInput("actuator 1: buckling needs a sheet without actuators")
     if bent_or_tilted(scene.supports, scene.sheet):
-        raise BadInput("support: a curved or tilted one bends the sheet; buckling is of a flat one")
+        raise BadInput("support: a curved or tilted one bends the sheet; buckling needs a flat sheet")

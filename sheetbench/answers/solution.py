@@ -33,7 +33,7 @@ About = Literal["flat", "deformed"]  # state about which a sheet oscillates: fla
 
 
 _FINER = "more masses (--lumped) or elements (--elements) may help, or a lighter load"
-_KEPT = f"{_FINER}; the last converged load is kept"
+_KEPT = f"{_FINER}; the answer is of the last converged load"
 
 
 class Status(StrEnum):
@@ -60,9 +60,9 @@ class Status(StrEnum):
     INVERTED = "inverted", f"a cell or an element turned inside out: {_FINER}"
     STRAIN_OUTSIDE_MODEL = (
         "strain-outside-model",
-        "strains or turns beyond what the model means: not physical",
+        "strains or rotations beyond the model's limits: not physical",
     )
-    REFUSED = "refused", "the model does not support what the scene asks"
+    REFUSED = "refused", "the model does not support the scene"
     FAILED = "failed", "a program or a mesh failed: there is no answer"
 
 
@@ -286,8 +286,8 @@ class Solution(Answer):
         points: of the undeformed sheet, or a probe's name. Raises BadInput for an unknown name."""
         if isinstance(points, str):
             if points not in self.points:
-                known = ", ".join(self.points) or "none are kept here: give plan points (n, 2) [m]"
-                raise BadInput(f"displacement('{points}'): no probe of this name; known are {known}")
+                known = ", ".join(self.points) or "none; give plan points (n, 2) [m]"
+                raise BadInput(f"displacement('{points}'): no probe of this name; known: {known}")
             return self.probes[points]
         return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))
 
@@ -309,16 +309,16 @@ class Solution(Answer):
         Raises NoEquilibrium where this is no stable equilibrium under the whole load, BadInput for a model
         without derivatives and an unknown name."""
         if self.sensitivity is None:
-            raise BadInput(f"gradient: {self.label} has no derivatives; lumped, plate and shell have")
+            raise BadInput(f"gradient: {self.label} has no derivatives; choose lumped, plate or shell")
         self.require_stable()
         points = np.array([*self.points.values()]) if at is None else np.reshape(at, (-1, 2))
-        found = self.sensitivity().at_points(points, self._by_displacements(of, points))
+        derivatives = self.sensitivity().at_points(points, self._by_displacements(of, points))
         if by is not None:
-            return {name: found[name] for name in by}
+            return {name: derivatives[name] for name in by}
         every = {}
-        for name in found:
+        for name in derivatives:
             with suppress(BadInput):  # as a clamp's tilt is where another one shares its corner
-                every[name] = found[name]
+                every[name] = derivatives[name]
         return every
 
     def _by_displacements(self, of: Any, points: np.ndarray) -> np.ndarray:
@@ -337,7 +337,7 @@ class Solution(Answer):
             return np.array([(of(u + e) - of(u - e)) / (2.0 * h) for e in units]).reshape(u.shape)
         given = np.asarray(of, dtype=float)
         if given.shape != (len(points), 3):
-            raise BadInput(f"gradient: of: shape {given.shape}, and there are {len(points)} points: (n, 3)")
+            raise BadInput(f"gradient: of: shape {given.shape}; ({len(points)}, 3) is needed")
         return given
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:

@@ -11,7 +11,7 @@ from cycler import cycler
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from sheetbench.files import whole
+from sheetbench.files import replacing
 
 DPI = 300  # of pictures as PNG, and of rendered parts in PDF and SVG
 PIXELS = 1080  # across a rendered sheet: 1.5 times those of a third of the page at DPI
@@ -47,7 +47,7 @@ def save(figure: Figure, paths: Iterable[Path], description: str = "") -> None:
     """
     for path in paths:
         words = {DESCRIPTION[path.suffix]: description} if description else {}
-        with whole(path) as partial, rc_context(STYLE):
+        with replacing(path) as partial, rc_context(STYLE):
             figure.savefig(partial, dpi=DPI, facecolor="white", metadata={**UNDATED[path.suffix], **words})
 
 

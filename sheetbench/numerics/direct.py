@@ -88,11 +88,11 @@ class Factor:
 @dataclass(eq=False)
 class SymmetricPartFactor(Factor):
     """Factors of the symmetric part, positive definite, of an unsymmetric matrix. No eigenvalue of the matrix
-    has a negative real part. whole: makes the factors of the matrix itself, if corrected solutions are too
+    has a negative real part. full: makes the factors of the matrix itself, if corrected solutions are too
     inaccurate."""
 
-    whole: Callable[[], Factor] = field(kw_only=True)
-    _whole: Factor | None = field(default=None, init=False)
+    full: Callable[[], Factor] = field(kw_only=True)
+    _full: Factor | None = field(default=None, init=False)
 
     def negative_real(self) -> int:
         """Return 0: no eigenvalue has a negative real part."""
@@ -100,13 +100,13 @@ class SymmetricPartFactor(Factor):
 
     def solve(self, b: np.ndarray, enough: float = 0.0) -> np.ndarray:
         """Solve A x = b for x (n,), corrected. Raises SingularMatrixError if the residual stays large."""
-        if self._whole is None:
+        if self._full is None:
             x, error = minimal_residual(self.matrix, self.solve_unrefined, b, max(enough, ROUNDED))
             if error <= BACKWARD_ERROR:
                 return x
             self.more()
-            self._whole = self.whole()
-        return self._whole.solve(b, enough)
+            self._full = self.full()
+        return self._full.solve(b, enough)
 
 
 def checked(x: np.ndarray, error: float) -> np.ndarray:
@@ -142,8 +142,8 @@ class DirectSolver:
                     error = np.inf if negative else CHOLESKY
                     return Factor(matrix, solve, negative, backward_error=error)
                 if negative == 0:
-                    whole = partial(self._by_library, matrix, more)
-                    return SymmetricPartFactor(matrix, solve, more=more, whole=whole)
+                    full = partial(self._by_library, matrix, more)
+                    return SymmetricPartFactor(matrix, solve, more=more, full=full)
                 more()
         return self._by_library(matrix, more)  # with pivoting
 

@@ -102,7 +102,7 @@ class Watch:
             share = number(100.0 * self.off / self.largest, ".2g")
             notes.append(
                 f"the energy balance is off by {share} % of the largest energy at some sample: energies are "
-                "good to no more; smaller steps (--error, --step) keep it better"
+                "no more accurate; smaller steps (--error, --step) keep it better"
             )
         notes += [steps] if steps else []
         return Status.STRAIN_OUTSIDE_MODEL if outside else Status.CONVERGED, "; ".join(notes)
@@ -217,7 +217,7 @@ class Run(Generic[AnyState]):
             if fault is None:
                 where = f"{observer.fastest(samples, count)}: use smaller steps"
                 share = f"by {100.0 * growth:.3g} % of the largest, fastest at {where}"
-                grew = Fault(Status.DIVERGED, f"the energy has grown from nothing, {share}")
+                grew = Fault(Status.DIVERGED, f"the energy has grown without a source, {share}")
                 overflowed = Fault(Status.NON_FINITE, f"a number overflowed, first at {where}")
                 fault = grew if isfinite(growth) else overflowed
             fault = Fault(fault.status, f"at {rows[count, 0]:.6g} s {fault.message}")

@@ -22,7 +22,7 @@ from typing import Any, BinaryIO, Self
 import numpy as np
 
 from sheetbench.errors import BadInput
-from sheetbench.files import NOT_FOLLOWED, only_writer, whole, writing
+from sheetbench.files import NOT_FOLLOWED, only_writer, replacing, writing
 from sheetbench.sources import source, version
 
 APPENDED = ("samples", "frames")
@@ -74,7 +74,7 @@ class FolderStore:
             self._held = held.pop_all()
         return self
 
-    def __exit__(self, *ended: object) -> None:
+    def __exit__(self, *error: object) -> None:
         self._held.close()
 
     def append(self, name: str, rows: np.ndarray) -> None:
@@ -88,7 +88,7 @@ class FolderStore:
         """Replace the checkpoint, after all appended rows are on disk."""
         sizes = {name: self._sync(name) for name in APPENDED}
         checksums = {CHECKSUM.format(name): self._checksums[name] for name in APPENDED}
-        with whole(self.folder / "checkpoint.npz") as partial, partial.open("wb") as file:
+        with replacing(self.folder / "checkpoint.npz") as partial, partial.open("wb") as file:
             np.savez(file, **{**content, **sizes, **checksums})
             file.flush()
             os.fsync(file.fileno())
@@ -116,7 +116,7 @@ class FolderStore:
                 raise self._damage_error(appended, fault)
             written = np.memmap(appended, np.uint8, "r", shape=size).data if size else b""
             if zlib.crc32(written) != self._checksums[name]:
-                raise self._damage_error(appended, "is not what the run wrote: its checksum is another")
+                raise self._damage_error(appended, "was changed after the run wrote it: its checksum differs")
         self._truncate(sizes)
         return content
 
@@ -133,7 +133,7 @@ class FolderStore:
         if not path.exists():
             if (self.folder / "checkpoint.npz").exists():
                 raise self._damage_error(path, "is missing beside a checkpoint")
-            with whole(path) as partial:
+            with replacing(path) as partial:
                 text = json.dumps({"asked": self._description}, sort_keys=True)
                 partial.write_text(text, encoding="utf-8")
         try:
@@ -144,9 +144,8 @@ class FolderStore:
         differing = [key for key in {**stored, **requested} if stored.get(key) != requested.get(key)]
         if differing and set(differing) <= {"version", "source"}:
             raise BadInput(
-                f"{self.folder}: holds a run that another state of sheetbench's code began "
-                f"({stored.get('version')}, source {stored.get('source')}), which this one does not go on "
-                "with; choose another folder or remove this one"
+                f"{self.folder}: holds a run of other code of sheetbench ({stored.get('version')}, source "
+                f"{stored.get('source')}), which cannot be resumed; choose another folder or remove this one"
             )
         if differing:
             raise BadInput(

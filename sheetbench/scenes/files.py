@@ -70,7 +70,7 @@ def load(scene: str | Path) -> Scene:
     except FileNotFoundError:
         neighbours = [str(one) for one in sorted(path.parent.glob("*.toml"))[:MANY]]
         near = did_you_mean(str(scene), [*neighbours, *names])
-        hint = f"did you mean {near}?" if near else f"those are {', '.join(names)}"
+        hint = f"did you mean {near}?" if near else f"the catalogue has {', '.join(names)}"
         raise SceneError(f"{scene}: no such file, and no catalogue scene of that name; {hint}") from None
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"{scene}: cannot be read as text: {foreign(error)}") from None

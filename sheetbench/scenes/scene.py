@@ -80,16 +80,16 @@ class Scene(SceneFields, defer_build=False):
         if self.material.law is not None:
             return f"{given}: not of rubber (law = '{self.material.law}'), whose strains it would multiply"
         if self.material.branches.times and any(one.history for one in self.natural_states.values()):
-            return f"{given}: with a history it takes no Maxwell branches; leave either out"
+            return f"{given}: with a history it takes no Maxwell branches; leave one out"
         if self.natural is not None and self.natural.pretension is not None and not self.homogeneous:
-            return f"natural.pretension: beside {self.varied_by}: give strain"
+            return f"natural.pretension: not with {self.varied_by}; give strain"
         if self.temperature is not None:
             bare = [n for n, layer in enumerate(self.layers, start=1) if layer.expansion is None]
             unlike = self.material.expansions or (0.0, 0.0)
             if self.material.expansion is None and (bare or not self.layers):
                 return "temperature: needs expansion [1/K], of the material or of every layer"
             if unlike[0] != unlike[1] and any(patch.angle is not None for patch in self.patches):
-                return "temperature: beside patch.angle expansion is one number"
+                return "temperature: with patch.angle, expansion must be one number"
         return ""
 
     def replace(self, **values: Any) -> Self:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli import console
 from comparisons.cli.options import Kind, Models
@@ -22,7 +22,7 @@ def command(
     suite: Annotated[str, Kind(choices=("statics", "curves"))] = "statics",
     *,
     output: PictureOptions,
-) -> None:
+) -> Any:
     """Show errors and times of other codes, with numbers in use and with ours, beside our models.
 
     CODE=PYTHON runs missing or changed rows of a code; rows with unchanged inputs stay.
@@ -43,4 +43,4 @@ def command(
             climb(name, console.tell)
         if standing or model:
             stand(model or (), console.tell, suite)
-        out.show(codes())
+        return out.show(codes())

@@ -14,7 +14,7 @@ from comparisons.models.spec import Elements, External, Lattice, Spec, spec_of
 from comparisons.scoring.reference import FILE, Reference, document, references
 from comparisons.sweep import task
 from comparisons.sweep.differences import error
-from comparisons.sweep.solved import Ask, Solved
+from comparisons.sweep.solved import Request, Solved
 from sheetbench.answers.files import plain, to_json, write_text
 from sheetbench.errors import BadInput, require_choice
 from studies.codes.results import CASES, SCENES, Trial, write_results
@@ -64,9 +64,9 @@ SLOW = (External("felupe", {"elements": 4}),)  # minutes
 
 def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     """Return the error of a model on a case, and its median time."""
-    ask = Ask(case.scene, candidate, REPEATS)
-    result = task.solve(**ask.task.arguments)
-    solved = Solved(ask, result["status"], row=result)
+    request = Request(case.scene, candidate, REPEATS)
+    result = task.solve(**request.task.arguments)
+    solved = Solved(request, result["status"], row=result)
     return {
         "case": case.name,
         "model": candidate.model,

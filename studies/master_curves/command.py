@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from comparisons.cli.output import PictureOptions
 from studies.master_curves.study import measure
 
 
-def command(*, output: PictureOptions) -> None:
+def command(*, output: PictureOptions) -> Any:
     """Lay lattice and shell over two curves without units. A cantilever under its own weight has one number,
     Γ = ρ_A g L³/B; so has a strip that stands on edge and buckles sideways. A code of other units can be laid
     over both."""
     with output.open() as out:
-        out.show(measure(out.progress))
+        return out.show(measure(out.progress))

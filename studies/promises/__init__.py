@@ -1,1 +1,1 @@
-"""Promised errors beside the errors that there are: bars, expected errors, advice."""
+"""Promised errors beside actual errors: bars, expected errors, advice."""

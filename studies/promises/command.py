@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli import console
 from comparisons.cli.options import CampaignOptions, Count, Kind
@@ -24,7 +24,7 @@ def command(
     *,
     campaign: CampaignOptions,
     output: OutputOptions,
-) -> None:
+) -> Any:
     """Measure how often promised errors hold: the references' bars, expected errors, advice's tolerance.
 
     Exit status 3 unless as many hold as required. An interrupted study with --out is resumed.
@@ -48,4 +48,4 @@ def command(
             if "advice" in parts:
                 advice, replaced = study.advised(count=scenes, seed=seed, **run)
                 rows, skipped = rows + advice, skipped | replaced
-        out.show(Promises(tuple(rows), skipped))
+        return out.show(Promises(tuple(rows), skipped))

@@ -23,7 +23,7 @@ from comparisons.models.spec import Elements, Spec, lattices, references, spec_o
 from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import limit
-from comparisons.sweep.solved import Ask, Solved, sweep
+from comparisons.sweep.solved import Request, Solved, sweep
 from comparisons.sweep.store import Store
 from comparisons.tradeoff.advisor import advise
 from fem_reference.uncertainty import coarser
@@ -70,7 +70,7 @@ def _drawn(
     specs = [Elements(model, n, graded=(model, n) == ("plate", truth[model]) or None) for model, n in solves]
     while len(solved) < count:
         drawn = list(islice(scenes, count - len(solved)))
-        done = sweep([Ask(scene, spec) for scene in drawn for spec in specs], store, **how)
+        done = sweep([Request(scene, spec) for scene in drawn for spec in specs], store, **how)
         if all(finished.status == Status.FAILED for finished in done):
             raise RuntimeError(done[0].message)
         for i, scene in enumerate(drawn):
@@ -119,8 +119,8 @@ def advised(
         if run_end.row.get("choice"):
             choice = spec_of(run_end.row["choice"]["model"], run_end.row["choice"]["settings"])
             specs = [choice, *(rows_of(scene) if number < compared else ())]
-            asks = [Ask(scene, spec, repeats=5 if number < compared else 0) for spec in specs]
-            (choice_row, *rivals), (fine,) = sweep(asks, store, **how), solved[number][1].values()
+            requests = [Request(scene, spec, repeats=5 if number < compared else 0) for spec in specs]
+            (choice_row, *rivals), (fine,) = sweep(requests, store, **how), solved[number][1].values()
             off = error(choice_row.u, fine.u) if choice_row.usable else None
             actual = float("inf") if off is None else off
             cost = _cost(choice_row, rivals, tolerance, fine)

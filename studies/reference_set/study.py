@@ -30,7 +30,7 @@ from comparisons.scoring.reference import AT_REST, LICENCE, VERSION, document
 from comparisons.sweep import task
 from comparisons.sweep.differences import error
 from comparisons.sweep.manifest import machine
-from comparisons.sweep.solved import Ask, Solved
+from comparisons.sweep.solved import Request, Solved
 from fem_reference.surface.mesh import Elements
 from fem_reference.uncertainty import coarser, of_answers, solve_with_bar
 from sheetbench.answers.files import plain
@@ -198,9 +198,9 @@ def _lattice(case: Case, reference: History) -> dict[str, Any]:
 
 def _lattice_at_rest(case: Case, reference: np.ndarray) -> dict[str, Any]:
     """Return the lattice's error against displacements (n, 3) [m] of the probes."""
-    ask = Ask(case.scene, Lattice(GRID, "consistent"))
-    row = task.solve(**ask.task.arguments)
-    solved = Solved(ask, row["status"], row=row)
+    request = Request(case.scene, Lattice(GRID, "consistent"))
+    row = task.solve(**request.task.arguments)
+    solved = Solved(request, row["status"], row=row)
     off = error(solved.u, reference) if solved.usable else None
     return {"model": "lumped", "grid": [GRID], "error": off, "status": solved.status}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from comparisons.cli.output import PictureOptions
 from studies.rubber.answer import measure
@@ -13,7 +14,7 @@ def command(
     block: bool = False,
     *,
     output: PictureOptions,
-) -> None:
+) -> Any:
     """Fit laws of rubber to measured tensile tests; pull, hang and blow up linear lattices of them.
 
     The option --block also lets a block of silicone go, with one damper and with branches.
@@ -22,4 +23,4 @@ def command(
         data (DIR): Folder with silicone-tensile/, treloar/ and silicone-beam/.
         block: Also the block of silicone-beam/ (C3D; half an hour)."""
     with output.open() as out:
-        out.show(measure(data, block, out.progress))
+        return out.show(measure(data, block, out.progress))

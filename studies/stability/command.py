@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli.options import CampaignOptions, Kind
 from comparisons.cli.output import PictureOptions
@@ -15,7 +15,7 @@ def command(
     *,
     campaign: CampaignOptions,
     output: PictureOptions,
-) -> None:
+) -> Any:
     """Map where each model holds, degrades, refuses or fails: the verb on published and extreme scenes.
 
     Neighbouring masses, units of stiffness and families of springs are varied too. An interrupted run with
@@ -28,4 +28,4 @@ def command(
     with output.open() as out:
         with out.campaign(campaign) as run:
             answer = maps(parts=part or PARTS, **run)
-        out.show(answer)
+        return out.show(answer)

@@ -36,7 +36,7 @@ from studies.stability.limit import energy, measured_limit, noise, start, system
 from studies.stability.scenes import TURNS, bent, pressed, published
 
 PARTS = ("published", "pressed", "bent", "mass", "stiffness", "family")
-RATIOS, MASSES = (1.0, 1e2, 1e4, 1e6), (5, 9, 17)
+RATIOS, SIDES = (1.0, 1e2, 1e4, 1e6), (5, 9, 17)
 FACTORS = (1e-7, 1e-4, 1e-2, 1e2, 1e4, 1e6)
 FAMILIES = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
 CONTRASTS = (1e-6, 1e-4, 1e-2, 1e-1, 10.0, 1e2, 1e4, 1e6)
@@ -90,7 +90,7 @@ def _compared(scene: Scene, ours: Any, truth: Any) -> Row:
 
 
 TASKS: dict[str, tuple[Callable[..., Row], list[dict[str, Any]]]] = {
-    "mass": (chess_masses, [{"masses": n, "ratio": r} for n in MASSES for r in RATIOS]),
+    "mass": (chess_masses, [{"masses": n, "ratio": r} for n in SIDES for r in RATIOS]),
     "stiffness": (
         stiffer,
         [{"factor": f, "model": m} for m in ("lumped", "plate", "shell") for f in FACTORS],

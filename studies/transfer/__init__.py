@@ -1,1 +1,1 @@
-"""How far a calibration carries over to scenes it was not made for."""
+"""Errors of calibrations on scenes that they were not made for."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 from comparisons.cli import console
 from comparisons.cli.options import CampaignOptions, Count, Kind
@@ -27,7 +27,7 @@ def command(
     *,
     campaign: CampaignOptions,
     output: OutputOptions,
-) -> None:
+) -> Any:
     """Measure every calibration on many scenes, statics and frequencies, as the grid is refined.
 
     On drawn sheets lattices stand beside the shell with its bar. An interrupted study with --out is resumed.
@@ -57,7 +57,7 @@ def command(
                 elements=elements,
                 large=large,
             )
-        out.show(result)
+        return out.show(result)
 
 
 def _require_known(name: str, values: Sequence[str] | None, choices: Collection[str]) -> Sequence[str]:

@@ -27,7 +27,7 @@ from sheetbench.answers.table import NUMBER, PERCENT
 from sheetbench.scenes import Scene
 from studies.transfer.drawn_scenes import OBLIQUE
 
-GRIDS, ELEMENTS, MASSES = (9, 17, 33), 32, 17
+GRIDS, ELEMENTS, TESTED_GRID = (9, 17, 33), 32, 17
 
 
 def measure(scene: dict[str, Any], grids: Sequence[int] = GRIDS, elements: int = ELEMENTS) -> dict[str, Any]:
@@ -63,7 +63,7 @@ class Drawn:
         steps = [*pairwise(numbers), (min(numbers), max(numbers))]
         orders = {f"order {a}–{b}": float(_order(numbers, a, b)) for a, b in steps}
         oblique = scene in OBLIQUE
-        close = numbers.get(MASSES, np.inf) <= (0.04 if oblique else 0.02)
+        close = numbers.get(TESTED_GRID, np.inf) <= (0.04 if oblique else 0.02)
         fast = [*orders.values()][-1] >= (1.0 if oblique else 1.5)
         missed = ", ".join(name for name, holds in (("error", close), ("order", fast)) if not holds)
         shown = {str(n): float(value) for n, value in numbers.items()}

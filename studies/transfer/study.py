@@ -25,7 +25,7 @@ from comparisons.models.sizes import require_room
 from comparisons.models.spec import Elements, GradingLike, Lattice, Spec, lattices
 from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
-from comparisons.sweep.solved import Ask
+from comparisons.sweep.solved import Request
 from comparisons.sweep.store import Finished, Store
 from sheetbench.answers.solution import comparable
 from sheetbench.choices import AUTO, CALIBRATIONS
@@ -45,7 +45,7 @@ METHODS = tuple(name for name in CALIBRATIONS if name not in OTHERS)
 FITTED = tuple(name for name in METHODS if CALIBRATIONS[name].fitted)
 PARTS = ("static", "limits", "modal", "aspect", "left-out", "drawn")
 GRIDS = (9, 17, 33)
-MASSES = ("tributary", "gregory", "higher-order")
+DISTRIBUTIONS = ("tributary", "gregory", "higher-order")
 LONG = ((9, 9), (9, 13), (9, 17), (9, 25), (25, 9))  # grids of `moduli` on the training scenes
 LONG_EVERYWHERE = ((17, 17), (17, 25), (17, 33), (17, 49), (49, 17))  # grids of `moduli` on every scene
 LIMITS = (*TRAINING, *LINEAR)
@@ -162,7 +162,7 @@ class _Study:
         for name in (name for name in self.scenes if name in MODAL):
             truth = self._reference(name, "reference_frequencies")
             for method in self.methods:
-                for masses in MASSES:
+                for masses in DISTRIBUTIONS:
                     frequencies = [
                         self._lattice(name, method, (n, n), "lattice_frequencies", masses=masses)
                         for n in self.grids
@@ -240,7 +240,7 @@ class _Study:
 
     def _field(self, name: str, spec: Spec) -> np.ndarray | None:
         """Return the displacement at the points, by the table of solves."""
-        done = self._done(Ask(self.probed[name], spec, label=f"{name} {spec.label}").task)
+        done = self._done(Request(self.probed[name], spec, label=f"{name} {spec.label}").task)
         return None if done is None else np.array([*done.row["probes"].values()])
 
     def _ask(self, task: str, name: str, label: str, **arguments: Any) -> np.ndarray | None:

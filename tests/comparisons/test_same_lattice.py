@@ -139,7 +139,7 @@ def test_so_are_a_scene_s_own_springs(name):
     scene.save("own.toml")
     for options in ({}, {"calibration": "van-gelder"}, {"k": 550.0}):
         if words >= options.keys() and not (name == "live" and options):  # whose grid is the slider's
-            expected = resolve(scene, Lattice(**options), own=name not in ANEW).springs
+            expected = resolve(scene, Lattice(**options), scene_springs=name not in ANEW).springs
             assert springs_of(ask, "own.toml", **options) == constants(expected), options
             assert tuple(expected.grid) == (4, 6, 2)
 

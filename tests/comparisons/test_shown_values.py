@@ -13,8 +13,7 @@ from comparisons.cli import modes
 from comparisons.models.spec import Elements, spec_of
 from comparisons.modes.spectra import spectra
 from comparisons.modes.state_space import Linearisation
-from comparisons.reproduction import findings
-from comparisons.sweep.solved import Ask
+from comparisons.sweep.solved import Request
 from comparisons.tradeoff import figure as tradeoff_figure
 from comparisons.tradeoff import trials
 from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff
@@ -37,7 +36,7 @@ def test_a_modulus_is_off_its_target_by_the_difference():
 
 def test_a_terminal_shows_of_a_tradeoff_what_is_read_off_its_front():
     scene = scenes.load("two-edges-clamped")
-    row = TradeoffRow(Ask(scene, Elements("shell", 2)), "converged")
+    row = TradeoffRow(Request(scene, Elements("shell", 2)), "converged")
     table, _ = Tradeoff(scene, (), row, None, None).tables()
     assert [column.name for column in table.columns if not column.detail] == [
         "row", "model", "size", "unknowns", "solve", "memory", "error", "field error", "front",
@@ -50,7 +49,7 @@ def test_time_is_predicted_by_the_models_own_family():
 
     shell, plate = (spec_of(model, {"elements": [8, 8]}) for model in ("shell", "plate"))
     took = ((lattice(5), 0.001), (shell, 0.1), (lattice(9), 0.008))
-    rows = {one: SimpleNamespace(ask=SimpleNamespace(spec=one), seconds=seconds) for one, seconds in took}
+    rows = {one: SimpleNamespace(request=SimpleNamespace(spec=one), seconds=seconds) for one, seconds in took}
     models = (shell, lattice(17), shell.but(count=(16, 16)), plate)
     found = [trials.TrialSolves.predicted_seconds(SimpleNamespace(rows=rows), one) for one in models]
     # as measured; 8 times as long for 4 times the cells; by the usual power of one; by the unknowns alone
@@ -89,13 +88,3 @@ def test_grading_changes_no_rate_and_a_calibration_does():
         for name, more in (("consistent", {}), ("consistent", {"grading": 0.5}), ("uniform", {}))
     )
     assert trials._time_series(even) == trials._time_series(graded) != trials._time_series(other)
-
-
-def test_a_fit_is_shown_in_the_tables_units(monkeypatch):
-    sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
-    numbers = {"by": "misfit", "rms": 0.25, "error": 0.5, "met": 9, "entries": 12}
-    fit = {"tests": [1], "sense": 0, "kind": "sheet", "table": "experiment", "sought": sought, **numbers}
-    monkeypatch.setattr(findings, "stored", lambda: {"made": "", "fits": [fit]})
-    row = shown(findings.nearest_table())
-    assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
-    assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "9 of 12")

@@ -108,7 +108,7 @@ def test_a_long_thin_sheet_is_refused_with_what_fits(monkeypatch):
     room(monkeypatch, 0.3 * GB)
     with pytest.raises(BadInput, match="take fewer along the longer side, --elements NxM"):
         sb.solve(strip, "shell", elements=4)
-    with pytest.raises(BadInput, match=r"shell 8x37376: .*; advise has no coarser one"):
+    with pytest.raises(BadInput, match=r"shell 8x37376: .*; no coarser trial exists"):
         sb.tradeoff(strip, tolerance=0.01)
 
 

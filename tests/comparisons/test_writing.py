@@ -13,18 +13,18 @@ from commands import one_line, run
 from comparisons.sweep.folder import Folder
 from sheetbench.answers.files import folder
 from sheetbench.answers.report import Report
-from sheetbench.files import require_file, whole
+from sheetbench.files import replacing, require_file
 from sheetbench.scenes import BadInput, load
 
 
 def test_a_file_is_whole_or_as_it_was(tmp_path):
     path = tmp_path / "file.txt"
     path.write_text("before")
-    with pytest.raises(ZeroDivisionError), whole(path) as partial:
+    with pytest.raises(ZeroDivisionError), replacing(path) as partial:
         partial.write_text("half")
         raise ZeroDivisionError
     assert path.read_text() == "before"
-    with whole(path) as partial:
+    with replacing(path) as partial:
         partial.write_text("after")
     assert path.read_text() == "after"
     assert [found.name for found in tmp_path.iterdir()] == ["file.txt"]
@@ -34,7 +34,7 @@ def test_a_link_planted_where_a_file_is_prepared_is_not_followed(tmp_path):
     victim = tmp_path / "victim"
     victim.write_text("mine")
     (tmp_path / f".file.{os.getpid()}.partial.txt").symlink_to(victim)
-    with whole(tmp_path / "file.txt") as partial:
+    with replacing(tmp_path / "file.txt") as partial:
         partial.write_text("ours")
     assert victim.read_text() == "mine" and (tmp_path / "file.txt").read_text() == "ours"
 
@@ -70,7 +70,7 @@ def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(t
     left, *others = (tmp_path / name for name in (f".file.{dead.pid}.partial.txt", *names))
     for path in (left, *others):
         path.write_text("half")
-    with whole(tmp_path / "file.txt") as partial:
+    with replacing(tmp_path / "file.txt") as partial:
         partial.write_text("whole")
     assert not left.exists() and all(path.exists() for path in others)
 
@@ -85,7 +85,7 @@ def test_what_killed_writers_left_is_cleared_and_what_living_ones_write_is_not(t
 )
 def test_what_stands_in_the_way_is_said_with_the_remedy(tmp_path, number, said):
     path = tmp_path / "file.txt"
-    with pytest.raises(BadInput, match=f"{path}: cannot be written, {said}"), whole(path):
+    with pytest.raises(BadInput, match=f"{path}: cannot be written, {said}"), replacing(path):
         raise OSError(number, os.strerror(number))
     assert not list(tmp_path.iterdir())
 
@@ -94,9 +94,9 @@ def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):
     (tmp_path / "link").symlink_to(tmp_path / "nothing")
     (tmp_path / "file").touch()
     root = "the root of the file system; name a folder in it"
-    device = "a device, pipe or socket stands there: choose another name"
+    device = "a device, pipe or socket is there: choose another name"
     for ask, place, said in (
-        (folder, tmp_path / "link", "a link to nothing stands there"),
+        (folder, tmp_path / "link", "a link to nothing is there"),
         (folder, tmp_path / "file" / "under", "Not a directory"),
         (require_file, Path(os.devnull), device),
         *((folder, place, root) for place in ("/", "//", "/usr/..")),
@@ -128,7 +128,7 @@ def test_a_file_that_no_run_wrote_is_replaced_only_on_request(tmp_path):
 
     mine = tmp_path / "check.md"
     mine.write_text("mine")
-    with pytest.raises(BadInput, match="not of a run here; move it, or --overwrite"):
+    with pytest.raises(BadInput, match="no run wrote it; move it, or --overwrite"):
         write("ours")
     assert mine.read_text() == "mine"
     write("ours", overwrite=True)

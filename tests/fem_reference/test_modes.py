@@ -33,7 +33,7 @@ def factor(scene):
 def test_leissa_thin_plates_of_the_solid(edges, published):
     """Of plate and shell, and NAFEMS: test_verify.py."""
     scene = clamped(THIN, *edges)
-    elements = 8 if edges == ["x0"] else 16  # the corner of two clamps asks for more
+    elements = 8 if edges == ["x0"] else 16  # the corner of two clamps requests for more
     got = modes(scene, model="solid", elements=elements, count=6)
     np.testing.assert_allclose(got.frequencies * factor(scene), published, rtol=1e-3)
 

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 from cases import WEIGHT, equilibrium
-from rod_cases import CHAINS, STRIP, alone, chain, driven, shell
+from rod_cases import CHAINS, STRIP, chain, driven, free_rod, shell
 
 import fem_reference
 from fem_reference.shell.discrete import DiscreteShell
@@ -17,7 +17,7 @@ from sheetbench.scenes import Gravity
 
 @pytest.mark.parametrize("load", [1.0, 5.0, 20.0])
 def test_a_rod_under_its_own_weight_is_the_heavy_elastica(load):
-    scene = alone(Gravity(acceleration=(0.0, 0.0, -load)), base="start")
+    scene = free_rod(Gravity(acceleration=(0.0, 0.0, -load)), base="start")
     tip = shell(scene, (1, 16)).displacement([[0.0, 1.0]])[0]
     assert [-tip[2], -tip[1]] == pytest.approx(HEAVY[load], rel=2e-3)
 
@@ -27,7 +27,7 @@ def test_a_rod_under_its_own_weight_is_the_heavy_elastica(load):
 )
 def test_intrinsic_curvature_bends_a_free_rod_into_an_arc(plane, curvature):
     """Ends go up ("normal", "spatial") or outwards; in the plane the floppy strip wrinkles, which is said."""
-    solution = shell(alone(curvature=curvature, plane=plane), (1, 16))
+    solution = shell(free_rod(curvature=curvature, plane=plane), (1, 16))
     assert solution.load_factor == 1.0
     assert solution.status is (Status.UNSTABLE if plane == "inplane" else Status.CONVERGED)
     angle = curvature / 2.0
@@ -49,13 +49,13 @@ def test_a_sheet_with_a_rod_takes_few_more_factorisations_than_without(name):
 def test_one_curvature_a_joint_and_a_table():
     """Straight, then an arc: 16 segments from the start have 16 joints, the first of half a segment."""
     joints = (0.0,) * 8 + (2.0,) * 8
-    bend = alone(base="start", curvature=joints).actuators[0].pieces()[8] / 16
-    tip = shell(alone(base="start", curvature=joints), (1, 16)).displacement([[0.0, 1.0]])[0]
+    bend = free_rod(base="start", curvature=joints).actuators[0].pieces()[8] / 16
+    tip = shell(free_rod(base="start", curvature=joints), (1, 16)).displacement([[0.0, 1.0]])[0]
     angle = 2.0 * (1.0 - bend)
     expected = [0.0, bend + np.sin(angle) / 2.0 - 1.0, (1.0 - np.cos(angle)) / 2.0]
     np.testing.assert_allclose(tip, expected, atol=3e-4)
-    table = shell(alone(curvature={"time": [0.0, 1.0], "value": [9.0, 1.0]}), (1, 16))
-    constant = shell(alone(curvature=1.0), (1, 16))
+    table = shell(free_rod(curvature={"time": [0.0, 1.0], "value": [9.0, 1.0]}), (1, 16))
+    constant = shell(free_rod(curvature=1.0), (1, 16))
     np.testing.assert_allclose(
         table.displacement([[0.0, 1.0]]), constant.displacement([[0.0, 1.0]]), atol=1e-9
     )
@@ -67,7 +67,7 @@ def test_a_rod_on_a_face_stretches_the_edge(face):
     thick, curvature = STRIP.model_copy(update={"thickness": 0.01}), 2.0
     height = (0.006 if face == "top" else -0.006) * 1.0
     radius = 1.0 / curvature + height
-    far = shell(alone(sheet=thick, curvature=curvature, face=face), (1, 16)).displacement([[0.0, 1.0]])[0]
+    far = shell(free_rod(sheet=thick, curvature=curvature, face=face), (1, 16)).displacement([[0.0, 1.0]])[0]
     angle = curvature / 2.0
     expected = [0.0, radius * np.sin(angle) - 0.5, radius * (1.0 - np.cos(angle))]
     np.testing.assert_allclose(far, expected, atol=2e-4)
@@ -96,7 +96,7 @@ def test_modes_are_those_of_the_sheet_alone(model):
 
 def test_a_straight_rod_of_intrinsic_curvature_stores_what_straightening_takes():
     """½ EI κ₀² L at full load, a quarter at half; EI and the length are 1."""
-    sheet = DiscreteShell(rectangle(STRIP, (1, 4), graded=False), alone(curvature=2.0))
+    sheet = DiscreteShell(rectangle(STRIP, (1, 4), graded=False), free_rod(curvature=2.0))
     for share, stored in ((1.0, 2.0), (0.5, 0.5)):
         assert sheet.rods.energy(np.zeros(sheet.size), share) == pytest.approx(stored, rel=1e-9)
 

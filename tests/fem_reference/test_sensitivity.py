@@ -130,6 +130,7 @@ def sensitivity(scene, model="shell", elements=3):
     return SheetSensitivity(run.sheet, at_rest(run.sheet, run.path.state.q))
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name, model", ROWS)
 def test_derivatives_are_those_of_equilibria_found_anew(name, model):
     scene = SCENES[name]
@@ -210,6 +211,7 @@ FREQUENCIES = [("plain", "plate", "flat"), ("laminate", "shell", "flat"), ("payl
 FREQUENCIES += [(name, "shell", "deformed") for name in ("natural", "payload", "tilted")]
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name, model, about", FREQUENCIES)
 def test_derivatives_of_a_frequency_are_differences(name, model, about):
     scene, number = SCENES[name], 3

@@ -10,7 +10,7 @@ from cases import sheet
 import fem_reference
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Elements, Lattice
-from comparisons.sweep import here as table
+from comparisons.sweep import in_process as table
 from fem_reference.edge_layer import NOTHING, Missed, captured, missed_by
 from fem_reference.uncertainty import FITTED, coarser, estimate, of_solutions, solve_with_bar
 from sheetbench import scenes

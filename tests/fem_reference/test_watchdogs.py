@@ -61,7 +61,7 @@ def not_a_number(lattice, u):
 @pytest.mark.parametrize(
     ("make", "status", "said"),
     [
-        (collapsed, Status.INVERTED, ("no length left", "y = 0.094 m")),
+        (collapsed, Status.INVERTED, ("collapsed to a point", "y = 0.094 m")),
         (inverted, Status.INVERTED, ("turned inside out", "x = 0 m, y = 0 m")),
         (not_a_number, Status.NON_FINITE, ("x = 0.188 m",)),
     ],

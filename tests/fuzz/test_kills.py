@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from campaigns import Here, rows_in, task
+from campaigns import Serial, rows_in, task
 from dynamic_cases import make_scene, springs
 
 import fem_reference
@@ -42,7 +42,7 @@ TIMED = ("seconds", "memory", "samples", "load_average")  # parts of the names o
 def run_campaign(folder: Path) -> None:
     """Forty runs with long rows, in this process."""
     with campaign(folder) as store:
-        carry_out([task("ballast", x=x, size=50_000) for x in range(40)], store, pool=Here)
+        carry_out([task("ballast", x=x, size=50_000) for x in range(40)], store, pool=Serial)
 
 
 def run_in_time(folder: Path, scene: Scene, grid: int, duration: float, **how: Any) -> None:

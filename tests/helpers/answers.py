@@ -7,14 +7,14 @@ from comparisons.models.resolve import Resolved
 from sheetbench.answers.solution import Solution
 
 
-def once(ask: Callable[..., Solution]) -> Callable[..., Solution]:
-    """A question that was answered before has the same answer, whoever follows its progress."""
+def once(solve: Callable[..., Solution]) -> Callable[..., Solution]:
+    """Return the stored answer of an earlier equal question, with or without progress."""
     answers: dict[str, Solution] = {}
 
     def answer(model: Resolved[Any], *name: str) -> Solution:
         key = f"{model.scene.model_dump_json()} {model.spec!r} {name}"
         if key not in answers:
-            answers[key] = ask(model, *name)
+            answers[key] = solve(model, *name)
         return answers[key]
 
     return answer

@@ -14,7 +14,7 @@ FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """A Chromium that draws in three dimensions without a graphics card."""
+    """Yield a Chromium with three-dimensional drawing without a graphics card."""
     found = next(filter(None, map(shutil.which, PROGRAMS)), None)
     if found is None:
         pytest.skip("needs a browser: install the Debian package chromium")
@@ -27,7 +27,7 @@ def browser() -> Iterator[Any]:
 
 
 class Watch:
-    """What a page did that it should not: errors and warnings of its console, and what it requested."""
+    """A page's faults: errors and warnings of its console, and its requests."""
 
     def __init__(self, page: Any) -> None:
         self.said: list[str] = []
@@ -38,13 +38,13 @@ class Watch:
 
     @property
     def troubles(self) -> list[str]:
-        """What was said, but for the drivers' remarks on reading pictures back from a card that is none."""
+        """The messages, except the drivers' remarks on reading pictures back without a graphics card."""
         return [text for text in self.said if "GPU stall" not in text]
 
 
 @contextmanager
 def opened(browser: Any, address: str, **context: Any) -> Iterator[tuple[Any, Watch]]:
-    """A page and what it does, in a context of its own, without a net unless `offline` says otherwise."""
+    """Yield a page and a watch on it, in a context of its own, offline unless `offline` is false."""
     own = browser.new_context(**{"offline": True, "viewport": {"width": 1000, "height": 900}, **context})
     page = own.new_page()
     watch = Watch(page)
@@ -56,7 +56,7 @@ def opened(browser: Any, address: str, **context: Any) -> Iterator[tuple[Any, Wa
 
 
 def pixels(page: Any, selector: str) -> np.ndarray:
-    """What an element looks like, (height, width, 3), 0 to 255."""
+    """Return the pixels of an element, (height, width, 3), 0 to 255."""
     from io import BytesIO
 
     from matplotlib.image import imread
@@ -66,5 +66,5 @@ def pixels(page: Any, selector: str) -> np.ndarray:
 
 
 def colours(picture: np.ndarray) -> int:
-    """How many different colours a picture has."""
+    """Return the number of different colours in a picture."""
     return len(np.unique(picture.reshape(-1, 3), axis=0))

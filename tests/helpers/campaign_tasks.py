@@ -1,4 +1,4 @@
-"""Tasks for the tests of campaigns: what a worker process is to do."""
+"""Tasks of worker processes for the tests of campaigns."""
 
 import os
 import signal
@@ -18,7 +18,7 @@ def square(x: float, seconds: float = 0.0) -> dict[str, Any]:
 
 
 def graded(x: float, grading: str | None = None) -> dict[str, Any]:
-    """The grading that a cell asks for."""
+    """Return the grading of a cell."""
     return {"status": "done", "grading": grading}
 
 
@@ -27,7 +27,7 @@ def ballast(x: int, size: int) -> dict[str, Any]:
 
 
 def log(x: int, path: str, seconds: float) -> dict[str, Any]:
-    """Writes a line when it starts and one when it ends."""
+    """Write a line at the start and one at the end."""
     with Path(path).open("a", encoding="utf-8") as file:
         file.write(f"start {x}\n")
         file.flush()
@@ -37,7 +37,7 @@ def log(x: int, path: str, seconds: float) -> dict[str, Any]:
 
 
 def gated(x: int, folder: str) -> dict[str, Any]:
-    """Says in a file that it has started, and as which process; from the fourth on it waits for the gate."""
+    """Write the process's number into a file at the start; from the fourth task on wait for the gate."""
     with (Path(folder) / "started").open("a", encoding="utf-8") as file:
         file.write(f"{x} {os.getpid()}\n")
     while x > 3 and not (Path(folder) / "gate").exists():
@@ -46,7 +46,7 @@ def gated(x: int, folder: str) -> dict[str, Any]:
 
 
 def mark(x: int, folder: str, seconds: float) -> dict[str, Any]:
-    """Leaves a file with its process when it starts, and another when it ends."""
+    """Write a file with the process's number at the start, and another at the end."""
     started = Path(folder) / f"{x}.started"
     started.write_text(str(os.getpid()), encoding="utf-8")
     time.sleep(seconds)
@@ -55,7 +55,7 @@ def mark(x: int, folder: str, seconds: float) -> dict[str, Any]:
 
 
 def where(x: int, seconds: float = 0.0) -> dict[str, Any]:
-    """The worker that it runs on."""
+    """Return the worker of this task."""
     time.sleep(seconds)
     return {"x": x, "worker": conditions()["worker"]}
 
@@ -65,7 +65,7 @@ def refuse() -> dict[str, Any]:
 
 
 def stumble(over: str) -> dict[str, Any]:
-    """Raises what code raises that has a fault, none of it a refusal."""
+    """Raise errors of faulty code, none of them a refusal."""
     if over == "value":
         int("not a number")
     if over == "type":
@@ -77,7 +77,7 @@ def stumble(over: str) -> dict[str, Any]:
 
 
 def interrupted() -> dict[str, Any]:
-    """As the interpreter says it when an interrupt falls into a compiled function's look at its arguments."""
+    """Raise the interpreter's error for an interrupt while a compiled function checks its arguments."""
     raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
 
 

@@ -1,4 +1,4 @@
-"""Campaigns as the tests run and watch them."""
+"""Campaigns with counters and limits for tests."""
 
 import os
 import signal
@@ -27,7 +27,7 @@ FEW: dict[str, Any] = {  # of comparisons.stability.extremes: two runs along eac
 }
 
 
-class Here(Executor):
+class Serial(Executor):
     """A pool that is this process: what is submitted is carried out at once."""
 
     def __init__(self, workers: int = 1) -> None:
@@ -48,7 +48,7 @@ def wait_for(condition: Callable[[], bool], seconds: float = 600.0) -> None:
 
 
 def rows_in(path: Path) -> dict[str, tuple]:
-    """What a campaign's file holds at this moment, read from beside it."""
+    """Return the present rows of a campaign's file."""
     if not path.exists():
         return {}
     with sqlite3.connect(path, timeout=10) as database:
@@ -61,7 +61,7 @@ def rows_in(path: Path) -> dict[str, tuple]:
 
 
 def alive(process: int) -> bool:
-    """Whether a process still runs; one that nobody has buried yet does not."""
+    """Return whether a process runs; a zombie does not."""
     try:
         os.kill(process, 0)
     except ProcessLookupError:
@@ -71,6 +71,6 @@ def alive(process: int) -> bool:
 
 
 def interrupt_when(condition: Callable[[], bool]) -> None:
-    """Ctrl-C, for the main thread, as soon as the condition holds."""
+    """Send Ctrl-C to the main thread as soon as the condition holds."""
     wait_for(condition)
     os.kill(os.getpid(), signal.SIGINT)

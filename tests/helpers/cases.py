@@ -47,7 +47,8 @@ def sheet(
     weight: float = 0.0,
     **more: Any,
 ) -> Scene:
-    """A sheet [m] of an isotropic material [Pa, –, kg/m³], clamped along edges, under gravity [m/s²] down.
+    """Return a sheet [m] of an isotropic material [Pa, –, kg/m³], clamped along edges, under gravity [m/s²]
+    down.
 
     more: keys of a scene, in place of these or besides.
     """
@@ -61,7 +62,8 @@ def sheet(
 def equilibrium(
     scene: Scene, model: str, grid: int | tuple[int, int], elements: int | tuple[int, int], **options: Any
 ) -> Solution:
-    """The converged answer of a `consistent` lattice of a grid, or of a reference of elements and options."""
+    """Return the converged answer of a `consistent` lattice of a grid, or of a reference of elements and
+    options."""
     if model == "lumped":
         springs = lumped.calibrate(scene.sheet, scene.material, grid, "consistent")
         found = lumped.solve(scene, springs)
@@ -72,17 +74,17 @@ def equilibrium(
 
 
 def with_material(scene: Scene, **changes: float) -> Scene:
-    """The scene with E, ν or ρ changed."""
+    """Return the scene with E, ν or ρ changed."""
     return scene.model_copy(update={"material": scene.material.model_copy(update=changes)})
 
 
 def relative(u: np.ndarray, reference: np.ndarray) -> float:
-    """The design's error: largest difference over the largest component."""
+    """Return the design's error: largest difference over the largest component."""
     return float(np.abs(u - reference).max() / np.abs(reference).max())
 
 
 def distorted(sheet: Sheet = SHEET, elements: int = 3, by: float = 0.2) -> MeshQuad:
-    """The sheet's mesh with its inner vertices moved by up to `by` of an element."""
+    """Return the sheet's mesh with its inner vertices moved by up to `by` of an element."""
     mesh = rectangle(sheet, elements)
     places, inner = mesh.p.copy(), mesh.interior_nodes()
     drawn = np.random.default_rng(0).uniform(-1.0, 1.0, (2, len(inner)))
@@ -91,7 +93,7 @@ def distorted(sheet: Sheet = SHEET, elements: int = 3, by: float = 0.2) -> MeshQ
 
 
 def calibrated(scene: Scene, grid: Any = 3, grading: Any = 0.0, **settings: Any) -> lumped.Calibration:
-    """The springs of a scene's cells on a grid as `grid_of` takes it."""
+    """Return the springs of a scene's cells on a grid as for `grid_of`."""
     grid = grid_of(scene.sheet, grid)
     cells = lumped.sections_of(scene, grid, grading)
     return lumped.calibrate(scene.sheet, scene.material, grid, cells=cells, grading=grading, **settings)
@@ -105,9 +107,8 @@ def elastica_tip(
     curvature: float = 0.0,
     turn: float = 1.0,
 ) -> np.ndarray:
-    """Where the tip (x, z) [m] of an inextensible strip is that is clamped level: B θ'' = (w (L − s) − F_z)
-    cos θ + F_x sin θ, θ(0) = 0, θ'(L) = curvature. turn: about what its angle is [rad], by which branches
-    differ."""
+    """Return the tip (x, z) [m] of an inextensible strip clamped level: B θ'' = (w (L − s) − F_z) cos θ + F_x
+    sin θ, θ(0) = 0, θ'(L) = curvature. turn: rough angle of the tip [rad], which selects the branch."""
 
     def slopes(s: np.ndarray, y: np.ndarray) -> list[np.ndarray]:
         across = weight * (length - s) - force[1]

@@ -1,4 +1,4 @@
-"""What the solvers say of the scenes of the catalogue, on small grids, and the lattice of some harder ones.
+"""The solvers' answers to the scenes of the catalogue, on small grids, and the lattice's to some harder ones.
 
 `make catalogue` writes catalogue.json anew, for a change that is meant to change answers; tests compare the
 answers with it, and how many factorisations they take. Newton's iterations end at a residual of 5e-9 of the
@@ -119,39 +119,39 @@ CASES = [
 
 
 def scene_of(name: str) -> Scene:
-    """The scene of a name."""
+    """Return the scene of a name."""
     return OTHERS.get(name) or load(name)
 
 
 def answer(name: str, model: str) -> dict[str, Any]:
-    """What `document` says of a scene by a model."""
+    """Return the `document` of a scene's solution by a model."""
     return document(scene_of(name), MODELS[model](scene_of(name)))
 
 
-def document(scene: Scene, found: Solution) -> dict[str, Any]:
-    """How the solution ended and what it took, and the probes' displacements [m]."""
-    displacement = found.displacement(scene.probe_points()).round(DIGITS).tolist()
+def document(scene: Scene, solution: Solution) -> dict[str, Any]:
+    """Return the status and cost of the solution, and the probes' displacements [m]."""
+    displacement = solution.displacement(scene.probe_points()).round(DIGITS).tolist()
     return {
-        "status": str(found.status),
-        "factorisations": found.iterations,
-        "load_factor": round(float(found.load_factor), 6),
-        "snaps": [round(float(snap), 4) for snap in found.snaps],
+        "status": str(solution.status),
+        "factorisations": solution.iterations,
+        "load_factor": round(float(solution.load_factor), 6),
+        "snaps": [round(float(snap), 4) for snap in solution.snaps],
         "displacement": dict(zip(scene.probes, displacement, strict=True)),
     }
 
 
 def table() -> dict[str, Any]:
-    """Scene → model → what it says."""
+    """Return the answers by scene and model."""
     found: dict[str, Any] = {name: {} for name, _ in CASES}
     for name, model in CASES:
         found[name][model] = answer(name, model)
     return found
 
 
-def written(found: dict[str, Any]) -> str:
-    """The table as JSON, a line for every answer."""
+def written(answers: dict[str, Any]) -> str:
+    """Return the table as JSON, a line for every answer."""
     scenes = []
-    for name, models in found.items():
+    for name, models in answers.items():
         lines = (f" {json.dumps(model)}: {json.dumps(one)}" for model, one in models.items())
         scenes.append(f"{json.dumps(name)}: {{\n" + ",\n".join(lines) + "}")
     return "{" + ",\n".join(scenes) + "}\n"

@@ -22,14 +22,14 @@ def run(*arguments: str) -> int:
 def python(
     *arguments: str, place: Path | None = None, **environment: str | None
 ) -> subprocess.CompletedProcess[str]:
-    """A process of Python in a folder, with variables set or, where None, unset."""
+    """Run Python in a folder, with variables set or, where None, unset."""
     env = {name: value for name, value in (os.environ | environment).items() if value is not None}
     command = [sys.executable, *arguments]
     return subprocess.run(command, env=env, cwd=place, capture_output=True, text=True, timeout=300)
 
 
 def json_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> Any:
-    """The JSON document of a command line that answers."""
+    """Return the JSON document of a command line that succeeds."""
     assert run(*arguments, "--json") == 0
     return json.loads(capsys.readouterr().out)
 

@@ -39,22 +39,22 @@ FALLEN = 1e3 * 0.002 * 0.01 * GRAVITY * DROP  # W H, J
 
 
 def laid_strip(drop: float, **more: object) -> Scene:
-    """A strip of B/w = 0.01 L³ that is clamped at a height above a plane and lies down on it."""
+    """Return a strip of B/w = 0.01 L³, clamped at a height above a plane, that lies down on it."""
     young = 0.12 * DENSITY * GRAVITY / THICKNESS**2
     values = {"obstacles": (Plane(position=(0.0, 0.0, -drop - THICKNESS / 2)),)} | more
     return sheet(1.0, 0.1, THICKNESS, young, 0.0, DENSITY, weight=GRAVITY, **values)
 
 
 def bent_over(at: float = 0.4, radius: float = 0.15 - THICKNESS / 2, height: float = -0.15) -> Scene:
-    """A weightless strip of B = 1 N m whose end is pulled down, 6 B/L², over a cylinder."""
+    """Return a weightless strip of B = 1 N m whose end is pulled down, 6 B/L², over a cylinder."""
     pull = EdgeLoad(edge="x1", force_per_length=(0.0, 0.0, -6.0))
     cylinder = Cylinder(position=(at, 0.0, height), axis=(0.0, 1.0, 0.0), radius=radius)
     return sheet(1.0, 0.1, THICKNESS, 12.0 / THICKNESS**3, 0.0, loads=(pull,), obstacles=(cylinder,))
 
 
 def bent_elastica(at: float, radius: float = 0.15, height: float = -0.15) -> float:
-    """The cylinder's force [N] on that strip at another place: B θ'' = f_z cos θ + f_x sin θ, with the tip's
-    6 N/m beyond the point of contact and the cylinder's N along its normal before it, by shooting."""
+    """Return the cylinder's force [N] on that strip at another place: B θ'' = f_z cos θ + f_x sin θ, with the
+    tip's 6 N/m beyond the point of contact and the cylinder's N along its normal before it, by shooting."""
 
     def bent(fx: float, fz: float, ends: list[float], start: np.ndarray) -> np.ndarray:
         def slope(s: float, y: np.ndarray) -> list[float]:
@@ -73,33 +73,33 @@ def bent_elastica(at: float, radius: float = 0.15, height: float = -0.15) -> flo
 
 
 def pressed_loop(gap: float) -> Scene:
-    """A quarter of a long loop of B = 1 N m that two plates hold flat at a distance (Flaherty and Keller,
-    1973): it leaves the symmetry plane across it, and lies along a plate from where it has turned by π/2."""
+    """Return a quarter of a long loop of B = 1 N m that two plates hold flat at a distance (Flaherty and
+    Keller, 1973): it starts normal to the symmetry plane, and lies along a plate beyond a turn of π/2."""
     plate = Plane(position=(0.0, 0.0, 0.5 * gap + THICKNESS / 2), normal=(0.0, 0.0, -1.0))
     held = (Clamped(edge="x0", tilt=-np.pi / 2),)
     return sheet(1.0, 0.1, THICKNESS, 12.0 / THICKNESS**3, 0.0, supports=held, obstacles=(plate,))
 
 
 def loop_force(gap: float) -> float:
-    """The plate's force [N] on it: with B κ²/2 = P cos φ, φ from the plate's normal, half the distance is
-    √(B/2P) ∫ √cos φ dφ, so that P = 2 B (I/gap)² a width, I = ½ Β(¾, ½) = 1.19814."""
+    """Return the plate's force [N] on the loop: with B κ²/2 = P cos φ, φ from the plate's normal, half the
+    distance is √(B/2P) ∫ √cos φ dφ, so that P = 2 B (I/gap)² a width, I = ½ Β(¾, ½) = 1.19814."""
     return float(0.1 * 2.0 * (0.5 * beta(0.75, 0.5) / gap) ** 2)
 
 
 def lying_quarter(**more: object) -> Scene:
-    """A quarter of a sheet that lies on a plane and rests on nothing else."""
+    """Return a quarter of a sheet that lies on a plane without other supports."""
     values = {"obstacles": (Plane(position=(0.0, 0.0, -0.001)),), "supports": QUARTER} | more
     return sheet(0.2, 0.2, 0.002, 5e6, 0.45, weight=GRAVITY, **values)
 
 
 def draped_quarter() -> Scene:
-    """A quarter of a square sheet over a ball."""
+    """Return a quarter of a square sheet over a ball."""
     ball = Sphere(position=(0.0, 0.0, -0.0505), radius=0.05)
     return sheet(0.1, 0.1, 0.001, 8e6, weight=GRAVITY, supports=QUARTER, obstacles=(ball,))
 
 
 def pressed_ball(at: tuple[float, float], rise: float, radius: float = 0.01) -> Scene:
-    """A hinged sheet into which a ball rises from below."""
+    """Return a hinged sheet with a ball that rises into it from below."""
     lift = Motion(time=(0.0, 1.0), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, rise + 1e-5)))
     ball = Sphere(position=(*at, -radius - 0.001 - 1e-5), radius=radius, motion=lift)
     held = tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0", "y1"))
@@ -107,7 +107,7 @@ def pressed_ball(at: tuple[float, float], rise: float, radius: float = 0.01) -> 
 
 
 def curled_sheet() -> Scene:
-    """A film that curls up by its natural curvature, 5 1/m, on a table: a cradle."""
+    """Return a film that curls up by its natural curvature, 5 1/m, on a table: a cradle."""
     held = Point(at=(0.0, 0.0), components=("x", "y")), Point(at=(0.1, 0.0), components=("y",))
     table = Plane(position=(0.0, 0.0, -0.00025))
     curl = Natural(curvature=(5.0, 0.0, 0.0))
@@ -116,9 +116,9 @@ def curled_sheet() -> Scene:
 
 
 def rocking_frequency() -> float:
-    """That of this cradle [Hz], which a table holds in its middle: ω² = g (R − z)/(i² + (e − z)²), R the
-    radius where it touches, z the height of its centre of mass, e of its ends, of which one stays above its
-    place, i its radius of gyration; its arms are bent by their weight, κ = 5 1/m − M/EI."""
+    """Return the cradle's frequency [Hz] if the table holds its middle: ω² = g (R − z)/(i² + (e − z)²), R the
+    radius at the contact, z the height of the centre of mass, e of the ends, one of which stays above its
+    place, i the radius of gyration; the arms are bent by their weight, κ = 5 1/m − M/EI."""
     half, s = 0.05, np.linspace(0.0, 0.05, 4001)
     per = 1780.0 * 5e-4 * 9.81 * 12.0 / (3e9 * 5e-4**3)  # weight over EI, 1/m³
     bend = 5.0 - 0.5 * per * (half - s) ** 2
@@ -131,8 +131,9 @@ def rocking_frequency() -> float:
 
 
 def heavy_elastica(drop: float, per: float = 0.01) -> tuple[float, float, float]:
-    """Lift-off length [m], the clamp's share of the weight and its M/w [m²] of a strip of length 1 and of
-    B/w = `per` [m³] above a plane: B θ'' = −(V0 − w s) cos θ, with θ = θ' = y = 0 at the unknown lift-off."""
+    """Return the lift-off length [m], the clamp's share of the weight and its M/w [m²] of a strip of length 1
+    and of B/w = `per` [m³] above a plane: B θ'' = −(V0 − w s) cos θ, with θ = θ' = y = 0 at the unknown
+    lift-off."""
     s0 = (72 * per * drop) ** 0.25
 
     def ends(z: np.ndarray) -> np.ndarray:

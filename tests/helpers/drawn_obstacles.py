@@ -1,6 +1,6 @@
 """Drawn sheets over drawn obstacles, solved on the lattice, and faults of the answer by geometry.
 
-A solver that reports no equilibrium is not judged.
+A solver that reports no equilibrium is not faults_of.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ def fault(scene: Scene, grid: tuple[int, int, int], solution: Solution) -> str:
     return ""
 
 
-def judged(number: int) -> str:
+def faults_of(number: int) -> str:
     """Return the fault of the answer to a drawn scene, "" for none and for a refusal in a line."""
     try:
         with warnings.catch_warnings():

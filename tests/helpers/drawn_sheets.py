@@ -16,7 +16,7 @@ CHANGES = {  # what becomes of vectors in space
 
 
 class _Pen:
-    """Draws numbers, half of them round ones, on which sides and ties of lines lie."""
+    """A source of random numbers, half of them round ones, so that sides and ties of lines lie on them."""
 
     def __init__(self, seed: int, oblique: bool):
         self.random = np.random.default_rng(seed)
@@ -46,7 +46,8 @@ class _Pen:
 
 
 def draw(seed: int, oblique: bool = False) -> Document:
-    """A sheet with holes, patches or an outline, held and loaded at edges and in parts, that bends little."""
+    """Draw a sheet with holes, patches or an outline, supports and loads at edges and in parts, that bends
+    little."""
     pen = _Pen(seed, oblique)
     lx = round(0.1 + 0.04 * pen.random.random(), int(pen.either(2, 5)))
     ly = round(lx * pen.either(1.0, 0.75, 1.5, 1.8), 6)
@@ -87,13 +88,13 @@ def draw(seed: int, oblique: bool = False) -> Document:
 
 
 def furnish(seed: int) -> Document:
-    """A drawn sheet with some of what else a scene may have: natural strain or pretension, heat, held points,
-    tilted and sliding edges, supports that move, forces, payloads, obstacles."""
+    """Draw further parts for a drawn sheet: natural strain or pretension, heat, held points, tilted and
+    sliding edges, moving supports, forces, payloads, obstacles."""
     pen, scene = _Pen(10_000 + seed, True), draw(seed, seed % 2 > 0)
     for patch in scene.get("patches", []) if seed % 4 < 2 else []:  # as thick all over, which the solid takes
         patch["young"] = patch.pop("thickness", 0.0) * 3e9 or patch["young"]
     lx, ly, h = (scene["sheet"][key] for key in ("length_x", "length_y", "thickness"))
-    whole = "outline" not in scene["sheet"] and "cutouts" not in scene
+    rectangle = "outline" not in scene["sheet"] and "cutouts" not in scene
 
     def anywhere() -> list[float]:
         return [pen.share(0.6, 0.9) * lx, pen.share(0.2, 0.8) * ly]
@@ -108,29 +109,30 @@ def furnish(seed: int) -> Document:
     if kind == "tension" and "patches" not in scene:
         scene["natural"] = {"pretension": [some(50.0), some(50.0)]}
     elif kind != "none":
-        own = {"strain": [some(1e-4, -5e-3) for _ in "123"], "curvature": [some(1.0, -1.0) for _ in "123"]}
-        scene["natural"] = own if kind == "both" else {kind: own[kind]} if kind in own else {}
+        natural = {"strain": [some(1e-4, -5e-3) for _ in range(3)]}
+        natural["curvature"] = [some(1.0, -1.0) for _ in range(3)]
+        scene["natural"] = natural if kind == "both" else {kind: natural[kind]} if kind in natural else {}
     if pen.either(True, False, False):
         scene["material"]["expansion"] = 2e-4
         scene["temperature"] = {"change": some(0.0, -20.0), "gradient": some(500.0, -500.0)}
     held, motion = scene["supports"], {"time": [0.0], "displacement": [[1e-4, -5e-5, 1e-4]]}
     if "edge" in held[0] and pen.either(True, False, False):
         held[0] |= pen.either({"motion": motion}, {"tilt": 0.02}) if len(held) == 1 else {}
-    elif whole and pen.either(True, False):
+    elif rectangle and pen.either(True, False):
         axes = pen.either(["x", "y", "z"], ["z"], ["x"], ["y", "z"])
         point = {"kind": "point", "at": anywhere()}
         kinds = point, point, {"kind": "held", "edge": "x1"}, {"kind": "held", "edge": "y1"}
         held.append({**pen.either(*kinds), "components": axes})
     loads = scene["loads"] = [*scene["loads"]]
-    if whole and pen.either(True, False):
+    if rectangle and pen.either(True, False):
         loads.append({"kind": "point", "at": anywhere(), "force": [1e-3, -2e-3, some(2e-3, -2e-3)]})
     if pen.either(True, False):
         part = {
             "where": pen.shape(lx, ly)
-            if whole
+            if rectangle
             else {"rectangle": {"x": [0.0, 0.5 * lx], "y": [0.0, 0.3 * ly]}}
         }
-        scene["masses"] = [{"mass": 1e-3, **(pen.either({"at": anywhere()}, part) if whole else part)}]
+        scene["masses"] = [{"mass": 1e-3, **(pen.either({"at": anywhere()}, part) if rectangle else part)}]
     if pen.either(True, False, False, False):
         below = {"position": [0.6 * lx, 0.5 * ly, -0.03 - 0.5 * h - 1e-3], "radius": 0.03}
         plane = {"position": [0.0, 0.0, -0.5 * h - 2e-4], "normal": [0.0, 0.0, 1.0]}
@@ -148,11 +150,11 @@ class Change:
         self.corner, self.lengths = corners.min(axis=0), np.ptp(corners, axis=0)
 
     def places(self, points: Any) -> Any:
-        """Where plan points come to lie."""
+        """Return the images of plan points."""
         return (np.array(points) @ self.plan.T - self.corner).tolist()
 
     def edge(self, name: str) -> str:
-        """Which edge becomes of one."""
+        """Return the image of an edge."""
         outward = self.map @ EDGES[name].outward
         return next(each for each, edge in EDGES.items() if outward @ edge.outward > 0.5)
 
@@ -169,7 +171,7 @@ class Change:
         return (self.map @ vector).tolist()
 
     def form(self, form: Any) -> Any:
-        """A symmetric form in the plan, [xx, yy, xy]."""
+        """Return the image of a symmetric form in the plan, [xx, yy, xy]."""
         xx, yy, xy = form
         (xx, xy), (_, yy) = self.plan @ [[xx, xy], [xy, yy]] @ self.plan.T / self.size**2
         return [xx, yy, xy]
@@ -178,7 +180,7 @@ class Change:
         return [self.up / self.size * k for k in self.form(curvature)]
 
     def part(self, part: Document) -> Document:
-        """A support, a load, a patch, a cutout, the sheet and what else there is."""
+        """Return the image of a support, a load, a patch, a cutout, the sheet or another part."""
         changes = {
             "at": lambda at: self.places([at])[0],
             "components": lambda names: ["xyz"[np.abs(self.map["xyz".index(k)]).argmax()] for k in names],
@@ -206,7 +208,7 @@ class Change:
         return {key: changes[key](value) if key in changes else value for key, value in part.items()}
 
     def scene(self, scene: Document) -> Document:
-        """The scene; enlarged with forces that bend it to a shape ten times as large."""
+        """Return the image of the scene, with forces for which its deformed shape is the image too."""
         lists = {key: [*map(self.part, each)] for key, each in scene.items() if isinstance(each, list)}
         sheet = self.part(scene["sheet"]) | dict(zip(("length_x", "length_y"), self.lengths, strict=True))
         fall = self.map @ scene["gravity"]["acceleration"] / self.size**2
@@ -215,7 +217,7 @@ class Change:
 
 
 def halved(scene: Document) -> Document:
-    """Every load as two of half of it."""
+    """Return the loads, each as two of half its size."""
     values = ("force", "force_per_length", "value")
     loads = scene["loads"]
     halves = [
@@ -225,7 +227,7 @@ def halved(scene: Document) -> Document:
 
 
 def in_text(scene: Document) -> Document:
-    """Numbers of the sheet and its material with units; an outline is in metres."""
+    """Return sheet and material, their numbers with units; an outline is in metres."""
     if "outline" in scene["sheet"]:
         return {}
     lengths = {key: f"{1e3 * scene['sheet'][key]!r} mm" for key in ("length_x", "length_y", "thickness")}
@@ -234,7 +236,7 @@ def in_text(scene: Document) -> Document:
 
 
 def patched(scene: Document) -> Document:
-    """A patch of the sheet's own material, where it may have one."""
+    """Return a patch of the sheet's own material, where one is allowed."""
     if "pretension" in scene.get("natural", {}):
         return {}
     lx, ly = scene["sheet"]["length_x"], scene["sheet"]["length_y"]
@@ -244,14 +246,14 @@ def patched(scene: Document) -> Document:
 
 
 def in_time(scene: Document) -> Document:
-    """A history of 1 of everything that may have one."""
+    """Return the tables that may have a history, each with one of 1."""
     history = {"history": {"time": [0.0, 1.0], "factor": [1.0, 1.0]}}
     tables = {key: {**scene[key], **history} for key in ("gravity", "natural", "temperature") if key in scene}
     return {**tables, "loads": [{**load, **history} for load in scene["loads"]]}
 
 
 def not_warmed(scene: Document) -> Document:
-    """No warmer than it was, where nothing else is said."""
+    """Return a temperature change of zero for a scene without one."""
     if "temperature" in scene:
         return {}
     return {"temperature": {"change": 0.0}, "material": {"expansion": 1e-4, **scene["material"]}}

@@ -12,7 +12,7 @@ ROD = {"edge": "x1", "segments": 8, "bending_stiffness": 0.05, "line_density": 0
 
 
 def make_scene(base="two-edges-clamped", actuators=(), gravity=True, supports=None, loads=(), **material):
-    """A catalogue scene with actuators, without its gravity or supports, or of another material."""
+    """Return a catalogue scene with actuators, without its gravity or supports, or of another material."""
     scene = scenes.load(base)
     data = scene.model_dump(by_alias=True, exclude_none=True)
     data["actuator"] = [{**ROD, **a} if a.get("kind") != "motion" else a for a in actuators]
@@ -26,12 +26,13 @@ def make_scene(base="two-edges-clamped", actuators=(), gravity=True, supports=No
 
 
 def springs(scene, n=5):
-    """Consistent springs of an n × n × 2 lattice."""
+    """Return consistent springs of an n × n × 2 lattice."""
     return lumped.calibrate(scene.sheet, scene.material, grid=(n, n))
 
 
 def moved(scene, model, duration, elements, **options):
-    """The history of a lattice of five masses along the shorter side, or of a reference of elements."""
+    """Return the history of a lattice of five masses along the shorter side, or of a reference of
+    elements."""
     if model == "lumped":
         own = lumped.calibrate(scene.sheet, scene.material, grid=5)
         return lumped.simulate(scene, own, duration, **options)
@@ -39,14 +40,14 @@ def moved(scene, model, duration, elements, **options):
 
 
 def system(scene, n=5):
-    """The equations of motion and the state at rest."""
+    """Return the equations of motion and the state at rest."""
     calibration = springs(scene, n)
     equations = System(scene, build_problem(scene, calibration))
     return equations, initial_state(equations, calibration, "tributary")
 
 
 def run(method, state, step, count):
-    """States after every one of `count` steps, the start first; dissipated energy of each."""
+    """Return the states after each of `count` steps, the start first; dissipated energy of each."""
     states, dissipated = [state], []
     for _ in range(count):
         advance = method.advance(states[-1], step)

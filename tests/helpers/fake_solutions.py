@@ -10,7 +10,8 @@ from sheetbench.scenes import Scene
 
 
 def solution(scene: Scene, model: str = "lumped", size: float = -0.01, **changes: Any) -> Solution:
-    """A sheet whose far corner moves by `size` [m], any other point by x y / (length_x length_y) of it."""
+    """Return a sheet whose far corner moves by `size` [m], any other point by x y / (length_x length_y) of
+    it."""
     lx, ly = scene.sheet.lengths
 
     def sample(points: np.ndarray) -> np.ndarray:
@@ -49,6 +50,6 @@ def solution(scene: Scene, model: str = "lumped", size: float = -0.01, **changes
 
 
 def history(time: np.ndarray, probes: dict[str, np.ndarray]) -> History:
-    """A motion (n,) [s] of probes (n, 3) [m] whose energies are all as large as the time."""
+    """Return a motion (n,) [s] of probes (n, 3) [m] whose energies all equal the time."""
     energies = dict.fromkeys(ENERGIES, time)
     return History("lumped", "verlet", {}, Status.CONVERGED, "", time, probes, energies, {}, {}, 4, 0.0, 0.0)

@@ -1,4 +1,5 @@
-"""Compiles the kernels, each once, before the tests' processes start, which would each compile them all.
+"""Compilation of the kernels, each once, before the tests' processes start, which would each compile them
+all.
 
     python tests/helpers/kernels.py
 
@@ -12,7 +13,7 @@ DURATION = 1e-3  # s: kernels are compiled whatever the duration
 
 
 def equilibria() -> None:
-    """What statics, the linear algebra and implicit integrators call."""
+    """Call the kernels of statics, linear algebra and implicit integrators."""
     from dynamic_cases import make_scene, springs
 
     import lumped
@@ -25,7 +26,7 @@ def equilibria() -> None:
 
 
 def explicit() -> None:
-    """What explicit integrators and the shell call."""
+    """Call the kernels of explicit integrators and the shell."""
     from dynamic_cases import make_scene, springs
 
     import fem_reference

@@ -40,7 +40,7 @@ def state(assembly, size=0.02, seed=1):
 
 
 def derivative(function, u, h=1e-6):
-    """Central differences of function (n, 3) → (…), one column per component of u."""
+    """Return central differences of a function (n, 3) → (…), one column per component of u."""
     columns = []
     for i in range(u.size):
         step = np.zeros(u.size)

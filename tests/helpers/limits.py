@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 @contextlib.contextmanager
 def at_most(size: int) -> Iterator[None]:
-    """No file may grow beyond so many bytes: what a full disk does to a writer."""
+    """Limit the size of files in bytes, like a full disk."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
     try:

@@ -14,7 +14,7 @@ from comparisons.live.server import Server
 
 @contextmanager
 def serving(panel: Panel) -> Iterator[str]:
-    """The address of the panel's page."""
+    """Yield the address of the panel's page."""
     with Server(panel) as server:
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
@@ -26,8 +26,8 @@ def serving(panel: Panel) -> Iterator[str]:
 
 
 def got(address: str, path: str, body: bytes | None = None, **headers: str) -> http.client.HTTPResponse:
-    """The answer to a request of a path, a post where there is a body, with headers of one's own in place of
-    the usual ones; the limit only ends a test that hangs."""
+    """Return the answer to a request of a path, a post if it has a body; headers replace the usual ones; the
+    limit only ends a test that hangs."""
     place = urlsplit(address)
     connection = http.client.HTTPConnection(place.netloc, timeout=600)
     connection.putrequest("GET" if body is None else "POST", path, skip_host=True)
@@ -41,7 +41,7 @@ def got(address: str, path: str, body: bytes | None = None, **headers: str) -> h
 
 
 def posted(address: str, what: str, question: str | bytes) -> tuple[int, Any]:
-    """Status and document of the answer to a question, as the page asks it."""
+    """Return status and document of the answer to a question, sent as by the page."""
     body = question.encode() if isinstance(question, str) else question
     answer = got(address, urlsplit(address).path + what, body)
     return answer.status, json.loads(answer.read() or b"null")

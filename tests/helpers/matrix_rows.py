@@ -20,7 +20,7 @@ Row = tuple[tuple[str, ...], ...]
 
 
 def pairwise(dimensions: Sequence[Sequence[tuple[str, ...]]]) -> list[Row]:
-    """Rows that have every pair of values of two dimensions."""
+    """Return rows with every pair of values of two dimensions."""
     left = {
         (i, a, j, b)
         for i, j in combinations(range(len(dimensions)), 2)
@@ -45,7 +45,7 @@ def _pair(i: int, a: int, j: int, b: int) -> tuple[int, int, int, int]:
 
 
 def named(row: Row) -> str:
-    """A row as a test's name."""
+    """Return a row as a test's name."""
     return " ".join(part for options in row for part in options) or "-"
 
 
@@ -65,16 +65,16 @@ def check(
 
     monkeypatch.setattr(Output, "show", shown)
     status = run(*arguments)
-    said = capsys.readouterr()
-    assert "Traceback" not in said.err, said.err[-3000:]
-    assert status in (0, 2, 3), said.err
+    output = capsys.readouterr()
+    assert "Traceback" not in output.err, output.err[-3000:]
+    assert status in (0, 2, 3), output.err
     if status == 2:
-        assert said.err.strip() and not answers and not said.out
-        assert len(said.err.splitlines()[-1]) <= LONGEST, said.err
-        for what in ("option", "command"):  # the row means something
-            assert f"No such {what}" not in said.err, said.err
+        assert output.err.strip() and not answers and not output.out
+        assert len(output.err.splitlines()[-1]) <= LONGEST, output.err
+        for kind in ("option", "command"):  # the row means something
+            assert f"No such {kind}" not in output.err, output.err
     elif "--json" in arguments:
-        json.loads(said.out)
+        json.loads(output.out)
     for answer in answers:
         for solution in answer.document().get("solutions", ()):
             require_balanced(solution)

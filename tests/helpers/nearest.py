@@ -29,7 +29,7 @@ class Nearest:
         self._texts = {name: path.read_text() for name, path in tests.items()}
 
     def tests(self, module: str, words: list[str]) -> list[str]:
-        """All files of tests, the nearest first, with mentions of words."""
+        """Return all files of tests, the nearest first, with mentions of words."""
         distances = self._distances(self._files[module])
         farthest = max(distances.values()) + 1  # of what is not imported at all
 
@@ -45,7 +45,7 @@ class Nearest:
         return [self._tests[test] for test in sorted(self._tests, key=nearness)]
 
     def _distances(self, module: str) -> dict[str, int]:
-        """How many imports lie between each file and a module."""
+        """Return the number of imports between each file and a module."""
         distances, ahead = {module: 0}, [module]
         for name in ahead:
             for other, names in self.imports.items():
@@ -62,13 +62,13 @@ def words_of(module: str, function: str) -> list[str]:
 
 
 def has(text: str, word: str) -> bool:
-    """Whether a text has a name, or its words one after the other."""
+    """Return whether a text has a name, or its words one after the other."""
     words = word.strip("_").replace("_", "[_ -]")
     return re.search(rf"(?<![a-zA-Z]){words}", text, re.IGNORECASE) is not None
 
 
 def modules(tree: Path, folder: str) -> dict[str, Path]:
-    """Dotted names and files; tests import each other without their folder's name."""
+    """Return dotted names and files; tests import each other without their folder's name."""
     found = {}
     for path in sorted((tree / folder).rglob("*.py")):
         parts = path.relative_to(tree).with_suffix("").parts
@@ -78,7 +78,7 @@ def modules(tree: Path, folder: str) -> dict[str, Path]:
 
 
 def imported(path: Path, files: dict[str, Path]) -> set[str]:
-    """Our modules that a file imports."""
+    """Return our modules that a file imports."""
     found = set()
     for module, names in IMPORTS.findall(path.read_text()):
         named = [name.split()[0] for name in names.strip("()").split(",") if name.strip()]

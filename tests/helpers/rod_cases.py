@@ -18,8 +18,8 @@ def chain(**settings: Any) -> Chain:
     return Chain(**{**values, **settings})
 
 
-def alone(gravity: Gravity | None = None, sheet: Sheet = STRIP, **settings: Any) -> Scene:
-    """A rod of length 1, EI = 1 and 1 kg/m along a floppy strip."""
+def free_rod(gravity: Gravity | None = None, sheet: Sheet = STRIP, **settings: Any) -> Scene:
+    """Return a rod of length 1, EI = 1 and 1 kg/m along a floppy strip."""
     values = {"edge": "x0", "segments": 16, "bending_stiffness": 1.0, "line_density": 1.0, "radius": 1e-3}
     only = Chain(**{**values, "base": "middle", **settings})
     return Scene(name="rod", sheet=sheet, material=FLOPPY, gravity=gravity, actuators=(only,))

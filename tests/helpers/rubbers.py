@@ -22,12 +22,12 @@ LEAST = 0.35  # of Poisson's ratio, where laws with these constants begin
 
 
 def rubber(law: str, poisson: float = 0.45, **other: Any) -> Material:
-    """Of about 1 MPa at small strains."""
+    """Return a rubber of about 1 MPa at small strains."""
     return Material(law=law, poisson=poisson, density=1000.0, **{**LAWS[law], **other})
 
 
 def material(law: str, poisson: float = 0.3, young: float = 2.0) -> Material:
-    """A material with this law, of density 1; ν is raised to where its law begins."""
+    """Return a material with this law, of density 1; ν is raised to the law's least."""
     if law not in CONSTANTS:
         return Material(young=young, poisson=poisson, density=1.0)
     found = Material(law=law, poisson=max(poisson, LEAST), density=1.0, **CONSTANTS[law])
@@ -35,7 +35,7 @@ def material(law: str, poisson: float = 0.3, young: float = 2.0) -> Material:
 
 
 def stored(material: Material, stretches: np.ndarray) -> Any:
-    """W [Pa] of principal stretches (…, 3), as `scenes.objects.material` writes it."""
+    """Return W [Pa] of principal stretches (…, 3), by the formulas of `scenes.objects.material`."""
     squares = stretches**2
     first, third = squares.sum(-1) - 3.0, np.log(stretches).sum(-1)
     second = 0.5 * (squares.sum(-1) ** 2 - (squares**2).sum(-1)) - 3.0

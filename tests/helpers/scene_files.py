@@ -47,7 +47,7 @@ def written(folder: Path, text: str) -> Path:
 
 
 def refusal(folder: Path, text: str) -> str:
-    """The one line with which the text is refused, without the file's name."""
+    """Return the line that refuses the text, without the file's name."""
     path = written(folder, text)
     with pytest.raises(scenes.SceneError) as caught:
         scenes.load(path)

@@ -1,4 +1,4 @@
-"""Prints how large the packages are: files, lines, and lines of code.
+"""Sizes of the packages, printed: files, lines, and lines of code.
 
     python tests/helpers/sizes.py
 

@@ -77,16 +77,16 @@ def stub() -> str:
     return "\n".join([*parts, "", "__version__: str", f"__all__ = [\n{names}\n]", ""])
 
 
-def _listed(own: Signature) -> str:
+def _listed(names: Signature) -> str:
     """Return the parameters; a group's keywords after the star, `grid` by its other name too."""
     shown = []
-    for one in own.parameters.values():
+    for one in names.parameters.values():
         if one.kind is Parameter.KEYWORD_ONLY and "*" not in shown:
             shown.append("*")
         usual = "" if one.default is Parameter.empty else " = ..."
         shown.append(f"{one.name}: {one.annotation}{usual}")
-    if "grid" in own.parameters:
-        shown.append(f"lumped: {own.parameters['grid'].annotation} = ...")
+    if "grid" in names.parameters:
+        shown.append(f"lumped: {names.parameters['grid'].annotation} = ...")
     return ", ".join(shown)
 
 

@@ -1,4 +1,4 @@
-"""A program on a terminal of its own, as a person has it: what it shows, keys pressed, how it ends."""
+"""A program on a terminal: its screen, keys pressed, its end."""
 
 import fcntl
 import os
@@ -78,7 +78,7 @@ class Terminal:
         return os.waitstatus_to_exitcode(status)
 
     def _alive(self) -> bool:
-        """Whether any of its processes goes on; one that has ended may wait for process 1 to take note."""
+        """Return whether any of its processes runs; an ended one may be a zombie for a while."""
         listed = subprocess.run(["ps", "-A", "-o", "pgid=,stat="], capture_output=True, text=True, check=True)
         rows = (line.split() for line in listed.stdout.splitlines())
         return any(int(group) == self.process and not state.startswith("Z") for group, state in rows)

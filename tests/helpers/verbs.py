@@ -1,4 +1,4 @@
-"""A small command line of every verb but `live`, its files, and one kept run, laid out at any width."""
+"""A small command line of every verb but `live`, its files, and one stored run, laid out at any width."""
 
 import io
 import json
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from campaigns import FEW, Here
+from campaigns import FEW, Serial
 from commands import run
 from matplotlib.figure import Figure
 from rich.console import Console
@@ -72,8 +72,8 @@ def write_inputs(folder: Path) -> None:
 
 
 def in_python(verb: str, words: Iterable[str]) -> Any:
-    """The document of the verb's function; the words of the command line, as the terminal reads them, are its
-    arguments."""
+    """Return the document of the verb's function, called with the words of the command line as parsed for the
+    terminal."""
     function, command = getattr(sheetbench, verb), verb_group((verb,)).commands[verb]
     parameters = command.make_context(verb, list(words)).params
     known = signature(function).parameters
@@ -81,17 +81,18 @@ def in_python(verb: str, words: Iterable[str]) -> Any:
     return json.loads(to_json(function(**taken).document()))
 
 
-def values_of(found: Any, left_out: tuple[str, ...], name: str = "") -> Iterator[tuple[str, Any]]:
-    """Every number and text of a document with the path to it, but below keys with one of these words."""
-    if isinstance(found, dict):
-        for key, value in found.items():
+def values_of(document: Any, left_out: tuple[str, ...], name: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield every number and text of a document with the path to it, except below keys with one of these
+    words."""
+    if isinstance(document, dict):
+        for key, value in document.items():
             if not any(word in key for word in left_out):
                 yield from values_of(value, left_out, f"{name}.{key}")
-    elif isinstance(found, list):
-        for i, value in enumerate(found):
+    elif isinstance(document, list):
+        for i, value in enumerate(document):
             yield from values_of(value, left_out, f"{name}.{i}")
-    elif not (isinstance(found, float) and math.isnan(found)):
-        yield name, found
+    elif not (isinstance(document, float) and math.isnan(document)):
+        yield name, document
 
 
 def undraw(patch: pytest.MonkeyPatch) -> None:
@@ -106,8 +107,8 @@ def undraw(patch: pytest.MonkeyPatch) -> None:
 
 def run_here(patch: pytest.MonkeyPatch) -> None:
     """Run campaigns in this process: no worker has to start."""
-    patch.setattr(executors, "Processes", Here)
-    patch.setitem(carry_out.__kwdefaults__, "pool", Here)
+    patch.setattr(executors, "Processes", Serial)
+    patch.setitem(carry_out.__kwdefaults__, "pool", Serial)
 
 
 def few_runs(patch: pytest.MonkeyPatch) -> None:
@@ -119,7 +120,7 @@ def few_runs(patch: pytest.MonkeyPatch) -> None:
 
 
 @dataclass
-class Kept:
+class StoredRun:
     """A run of a small command line with --json and --out: its exit status, what it printed, its folder and
     its answer."""
 
@@ -134,7 +135,7 @@ class Kept:
         return json.loads(self.printed)
 
     def shown(self, columns: int, encoding: str = "utf-8") -> str:
-        """What a terminal of so many columns shows of the answer."""
+        """Return the answer as shown on a terminal of so many columns."""
         assert self.answer is not None
         stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding, errors=app.PLAIN)
         with pytest.MonkeyPatch.context() as patch:
@@ -145,7 +146,7 @@ class Kept:
         return stream.buffer.getvalue().decode(encoding)  # type: ignore[attr-defined]
 
 
-def keep(name: str, base: Path) -> Kept:
+def keep(name: str, base: Path) -> StoredRun:
     """Run a small command line in a folder that has the inputs; its files go to the folder of its name."""
     words, folder = SMALL[name].split(), base / name
     answers: list[Answer] = []
@@ -166,4 +167,4 @@ def keep(name: str, base: Path) -> Kept:
         few_runs(patch)
         patch.setattr(Output, "show", shown)
         status = run(*words, *plain)
-    return Kept(status, out.getvalue(), err.getvalue(), folder, answers[0] if answers else None)
+    return StoredRun(status, out.getvalue(), err.getvalue(), folder, answers[0] if answers else None)

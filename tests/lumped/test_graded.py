@@ -129,7 +129,7 @@ def test_springs_of_a_scene_file_are_the_calibrations(method):
         with pytest.raises(BadInput, match=r"springs.grading = 0.7.*--grading"):
             lumped.given(pasted, grading=grading)
     cells = table.model_copy(update={"grid": None})
-    with pytest.raises(BadInput, match=r"springs.axial.x: 4 rows of 6 cells are wanted on 7x5 masses"):
+    with pytest.raises(BadInput, match=r"springs.axial.x: 4 rows of 6 cells are needed on 7x5 masses"):
         lumped.given(scene.model_copy(update={"springs": cells}), (7, 5))
 
 

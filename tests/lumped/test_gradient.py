@@ -148,6 +148,7 @@ TWELVE = {
 NIGHTLY = {"contact": pytest.mark.nightly}  # a minute
 
 
+@pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", [pytest.param(name, marks=NIGHTLY.get(name, ())) for name in TWELVE])
 def test_gradients_of_twelve_scenes_are_those_of_differences(name):
     make, scalars = TWELVE[name]

@@ -38,5 +38,5 @@ def test_other_values_go_along_the_load_path_and_what_ends_otherwise_says_how():
     found = lumped.solve_many(pushed, {"cells.young": young})
     assert found.status == [Status.CONVERGED, Status.UNSTABLE]  # which buckles
     assert np.isfinite(found.displacement[0]).all() and np.isnan(found.displacement[1]).all()
-    with pytest.raises(BadInput, match="as many of each"):
+    with pytest.raises(BadInput, match="equal numbers of values"):
         lumped.solve_many(scene, {"density": np.ones(2), "young": np.ones(3)})

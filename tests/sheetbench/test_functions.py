@@ -56,7 +56,8 @@ def test_what_the_terminal_has_python_has(tmp_path):
         sb.modes("two-edges-clamped", grid=3, elements=2, count=2, out=tmp_path / "modes")
     assert sb.report(tmp_path) == tmp_path / "report.html" and (tmp_path / "report.html").is_file()
     assert sb.new(tmp_path / "mine.toml", side=(0.1, 0.2)).is_file()
-    assert sb.study("reproduction", part="nearest").report()
+    for name, part in (("reproduction", "nearest"), ("promises", "expected")):
+        assert sb.study(name, part=part).report()
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.stem)

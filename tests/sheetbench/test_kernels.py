@@ -158,6 +158,7 @@ print(area.stats.cache_path)
 """
 
 
+@pytest.mark.nightly  # three processes that compile for six seconds each
 def test_functions_of_the_user_are_as_without_this_project(tmp_path):
     """Compiled before it or after, from an empty cache: answers, error texts, events, settings, cache."""
     (tmp_path / "users.py").write_text(USERS)

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from campaigns import Here
+from campaigns import Serial
 
 from comparisons.cli import main
 from studies.promises import study
@@ -32,7 +32,7 @@ def test_each_promise_is_kept_by_its_own_rule_and_complained_of_where_it_is_not(
 def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store, monkeypatch):
     """Of a seed that the rule was set on."""
     monkeypatch.setattr("studies.promises.answer.GOALS", GOALS | NOT_ITS_GOAL)
-    rows, skipped = study.bars(store, 6, ("plate", "shell"), (8,), TRUTH, seed=27, pool=Here)
+    rows, skipped = study.bars(store, 6, ("plate", "shell"), (8,), TRUTH, seed=27, pool=Serial)
     shares = Promises(tuple(rows), skipped).shares()
     assert [(row.at, row.scenes) for row in shares] == [("plate 8", 6), ("shell 8", 6)]
     assert all(row.cases > 30 and row.met for row in shares)
@@ -43,7 +43,7 @@ def test_advice_keeps_its_tolerance_on_two_drawn_scenes_and_has_a_cost(store, mo
     rivals = study.rows_of
     monkeypatch.setattr(study, "rows_of", lambda scene: rivals(scene)[1::4])
     truth = {"shell": 8}
-    found, again = (study.advised(store, 2, 1, (0.02,), truth=truth, seed=3, pool=Here) for _ in range(2))
+    found, again = (study.advised(store, 2, 1, (0.02,), truth=truth, seed=3, pool=Serial) for _ in range(2))
     assert found == again
     rows, _ = found
     assert [row.kept for row in rows] == [True, True]
@@ -91,4 +91,4 @@ def test_a_study_whose_solves_all_fail_ends(store, monkeypatch):
 
     monkeypatch.setattr("comparisons.sweep.task.solve", fail)
     with pytest.raises(RuntimeError, match="the code changed"):
-        study.bars(store, 2, ("plate",), (8,), TRUTH, pool=Here)
+        study.bars(store, 2, ("plate",), (8,), TRUTH, pool=Serial)

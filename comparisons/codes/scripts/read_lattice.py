@@ -9,16 +9,16 @@ import numpy as np
 
 
 def differences(lattice):
-    """Matrices that take positions (n, 3) to the vectors that springs see: along links, across cells."""
+    """Return matrices from positions (n, 3) to the springs' vectors: along links, across cells."""
     of = np.eye(len(lattice["positions"]))
-    found = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
+    matrices = {"link": of[lattice["link_masses"][:, 1]] - of[lattice["link_masses"][:, 0]]}
     for kind in ("area", "strain", "coupling", "rubber", "face"):
         corner = of[lattice[f"{kind}_corners"]].mean(axis=2)  # of one mass or several
         first, second = corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1]
-        found[kind] = (first - second) / 2, (first + second) / 2  # mean sides
-        found[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
-    found["contact"] = np.einsum("pq,pqn->pn", lattice["contact_weights"], of[lattice["contact_masses"]])
-    return found
+        matrices[kind] = (first - second) / 2, (first + second) / 2  # mean sides
+        matrices[f"{kind}_warp"] = corner[:, 0] - corner[:, 1] + corner[:, 2] - corner[:, 3]
+    matrices["contact"] = np.einsum("pq,pqn->pn", lattice["contact_weights"], of[lattice["contact_masses"]])
+    return matrices
 
 
 def dot(a, b):
@@ -26,7 +26,7 @@ def dot(a, b):
 
 
 def gradient(lattice, along, u):
-    """Energy [J] of springs and contact and its gradient (n, 3) [N] at displacements u (n, 3) [m]."""
+    """Return the energy [J] of springs and contact, and its gradient (n, 3) [N], at u (n, 3) [m]."""
     x = lattice["positions"] + u
     k, r = lattice["link_stiffness"][:, None], along["link"] @ x
     stretch = np.sqrt(dot(r, r)) - lattice["link_rest_length"][:, None]
@@ -53,7 +53,7 @@ def gradient(lattice, along, u):
 
 
 def contact(lattice, along, x, g):
-    """Energy [J] of points that touch obstacles; its gradient is added to g."""
+    """Return the energy [J] of points on obstacles; add its gradient to g."""
     place, normal, radius, area, offset, k = np.hsplit(lattice["contact_values"], [3, 6, 7, 8, 9])
     y, curved = along["contact"] @ x - place, radius > 0
     y = y - curved * dot(y, normal) * normal
@@ -64,7 +64,7 @@ def contact(lattice, along, x, g):
 
 
 def rubber(lattice, along, x, g):
-    """Energy [J] of rubber membranes at places x (n, 3) [m]; its gradient is added to g."""
+    """Return the energy [J] of rubber membranes at positions x (n, 3) [m]; add its gradient to g."""
     (over_a, over_b), warp, a0 = along["rubber"], along["rubber_warp"], lattice["rubber_rest"][:, None]
     aa, bb = (dot(side @ lattice["positions"], side @ lattice["positions"]) for side in (over_a, over_b))
     c10, c01, c20, c30, v, limit, ka, kb = np.hsplit(lattice["rubber_stiffness"], 8)
@@ -92,7 +92,7 @@ def rubber(lattice, along, x, g):
 
 
 def faces(lattice, along, x, g):
-    """Energy [J] of upright faces sheared; its gradient is added to g."""
+    """Return the energy [J] of upright faces in shear; add its gradient to g."""
     (over_a, over_b), k, a0 = along["face"], lattice["face_stiffness"][:, None], lattice["face_rest"][:, None]
     a, b, up = over_a @ x, over_b @ x, over_b @ lattice["positions"]
     long, high = np.sqrt(dot(a, a)), np.sqrt(dot(up, up))
@@ -103,39 +103,39 @@ def faces(lattice, along, x, g):
 
 
 def neighbours(along):
-    """Which masses (n, n) share a spring, and groups of masses of which no two have one in common."""
+    """Return a mask of masses (n, n) with a common spring, and groups of masses without common neighbours."""
     pairs = [
-        abs(each) if kind in ("link", "contact") else sum(map(abs, each))
-        for kind, each in along.items()
+        abs(matrix) if kind in ("link", "contact") else sum(map(abs, matrix))
+        for kind, matrix in along.items()
         if not kind.endswith("_warp")
     ]
     near = sum(touched.T @ touched for touched in pairs) > 0
-    alone, groups, left = near @ near, [], list(range(len(near)))
-    while left:
+    sharing, groups, remaining = near @ near, [], list(range(len(near)))
+    while remaining:
         group = []
-        for mass in left:
-            if not alone[mass, group].any():
+        for mass in remaining:
+            if not sharing[mass, group].any():
                 group.append(mass)
-        groups, left = [*groups, group], [mass for mass in left if mass not in group]
+        groups, remaining = [*groups, group], [mass for mass in remaining if mass not in group]
     return near, groups
 
 
 def stiffness(lattice, along, shared, u, force, h):
-    """The tangent (3 n, 3 n) [N/m] by differences; the masses of a group move together."""
+    """Return the tangent (3 n, 3 n) [N/m] by differences; the masses of a group are moved together."""
     (near, groups), n = shared, len(u)
-    found = np.zeros((n, 3, n, 3))
+    tangent = np.zeros((n, 3, n, 3))
     for group in groups:
         for axis in range(3):
             moved = u.copy()
             moved[group, axis] += h
             ahead = (gradient(lattice, along, moved)[1] - force) / h
-            found[:, :, group, axis] = near[:, None, group] * ahead[:, :, None]
-    return found.reshape(3 * n, 3 * n)
+            tangent[:, :, group, axis] = near[:, None, group] * ahead[:, :, None]
+    return tangent.reshape(3 * n, 3 * n)
 
 
 def part_of(lattice, along, part, share):
-    """The lattice with a part of its natural state and with a share of the stiffness of contact."""
-    found = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
+    """Return the lattice with parts of its natural state and of the stiffness of contact."""
+    partial = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
     rest = lattice["positions"]
     flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}
     for kind in ("area", "strain", "coupling"):
@@ -143,13 +143,13 @@ def part_of(lattice, along, part, share):
         flat[f"{kind}_rest"] = np.linalg.norm(np.cross(a, b), axis=1)
         flat[f"{kind}_natural"] = np.hstack([dot(a, a), dot(b, b), dot(a, b)])
     for name, values in flat.items():
-        if name in found:
-            found[name] = values + part * (lattice[name] - values)
-    return found
+        if name in partial:
+            partial[name] = values + part * (lattice[name] - values)
+    return partial
 
 
 def equilibrium(lattice, along, steps=1):
-    """Displacements (n, 3) at rest: Newton, the tangent by differences, supports by multipliers.
+    """Return displacements (n, 3) at rest by Newton's method with differences and multipliers of supports.
 
     The load comes in `steps`, in twice as many where Newton does not converge; then contact stiffens.
     """

@@ -37,7 +37,7 @@ SHARE = 0.5  # of the step at which a constraint cannot be as stiff as it is to 
 
 
 def hinge_weights(places, hinges, w):
-    """W of every hinge."""
+    """Return the weight W of every hinge."""
     a, b, *opposite = places[hinges.T]
     edge = b - a
     long = (edge**2).sum(axis=1)
@@ -107,9 +107,9 @@ def main(seconds=600.0):
         relaxation = stiffness * hinge_weights(start, hinges, w) * step**2
         solver.inner_edges_info.bending_relaxation.from_numpy(relaxation)
     at = {n: np.array(p["shares"]) @ rest[p["vertices"]] for n, p in sheet["probes"].items()}
-    own = np.full(len(rest), -1)
-    own[nearest] = np.arange(len(start))
-    shares = {n: (own[p["vertices"]], np.array(p["shares"])) for n, p in sheet["probes"].items()}
+    vertex_of = np.full(len(rest), -1)
+    vertex_of[nearest] = np.arange(len(start))
+    shares = {n: (vertex_of[p["vertices"]], np.array(p["shares"])) for n, p in sheet["probes"].items()}
     if as_given:
         shares = {n: ([np.linalg.norm(start - x, axis=1).argmin()], np.ones(1)) for n, x in at.items()}
     load = np.linalg.norm((masses[:, None] * sheet["gravity"] + forces).sum(axis=0)) / masses.sum()

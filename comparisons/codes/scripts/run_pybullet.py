@@ -54,8 +54,8 @@ def main(seconds=120.0):
         for _ in range(CHECK):
             bullet.stepSimulation()
         count += CHECK
-        found = bullet.getMeshData(body, -1, flags=bullet.MESH_DATA_SIMULATION_MESH)[1]
-        moved = np.array(found) - rest
+        positions = bullet.getMeshData(body, -1, flags=bullet.MESH_DATA_SIMULATION_MESH)[1]
+        moved = np.array(positions) - rest
         if not np.isfinite(moved).all():
             status = "non-finite"
             break

@@ -187,14 +187,14 @@ class CalculiX(Code):
                 thickness = f"patch {number}.thickness = {patch.thickness:g} m"
                 return f"{thickness}: its bricks have no steps in thickness"
         if material.law is not None and scene.varied_by:
-            return f"{scene.varied_by}: it is given rubbers that are the same all over"
+            return f"{scene.varied_by}: it supports uniform rubbers only"
         if material.kind == "orthotropic":
             return impossible_in_space(material.ply)
         if material.law is None or material.poisson >= INCOMPRESSIBLE:
             return ""
         return (
-            f"poisson = {material.poisson:g}: its rubber laws agree with a scene's near ν = ½ only; they are "
-            f"passed to it from {INCOMPRESSIBLE:g} on"
+            f"poisson = {material.poisson:g}: its rubber laws agree with a scene's near ν = ½ only; ν of "
+            f"{INCOMPRESSIBLE:g} or more is passed to it"
         )
 
 

@@ -80,11 +80,11 @@ class Triangles:
         return np.vstack([cells[:, :3], cells[:, [0, 2, 3]]])
 
     def edge(self, name: str) -> np.ndarray:
-        """Nodes on an edge, along it."""
+        """Return the nodes on an edge, along it."""
         return np.unique(self.plan.facets[:, self.plan.boundaries[name]])
 
     def weights(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Corners of the cells at plan points (p, 2) [m], and their bilinear shares, (p, 4)."""
+        """Return the corners of the cells at plan points (p, 2) [m], and their bilinear weights, (p, 4)."""
         element, place = locate(self.plan, points)
         shares = 0.25 * np.prod(1.0 + SITES[:4] * place.T[:, None], axis=2)
         return self.plan.t[:, element].T, shares
@@ -124,9 +124,9 @@ def _held(scene: Scene, mesh: Triangles, load_factors: np.ndarray) -> tuple[np.n
         nodes = mesh.edge(edge.edge)
         held[nodes] = True
         for step, load_factor in enumerate(load_factors.tolist()):
-            placed = edge.placed(mesh.positions[nodes, :2], load_factor)
-            value[step, nodes, :3] = placed.displacement
-            value[step, nodes, 3:] = Rotation.from_matrix(np.eye(3) + placed.turn).as_rotvec()
+            displaced = edge.displaced(mesh.positions[nodes, :2], load_factor)
+            value[step, nodes, :3] = displaced.displacement
+            value[step, nodes, 3:] = Rotation.from_matrix(np.eye(3) + displaced.turn).as_rotvec()
     return held, value
 
 

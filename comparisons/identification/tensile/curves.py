@@ -74,32 +74,32 @@ def read(
 
 def require_loading(curve: Curve, columns: Columns | None = None) -> None:
     """Raise BadInput unless the curve is one branch of loading, in SI units."""
-    where, stretch, stress = curve.file or "tensile test", curve.stretch, curve.stress
+    name, stretch, stress = curve.file or "tensile test", curve.stretch, curve.stress
     require_choice("test", curve.test, TESTS)
     if len(stretch) < FEWEST:
-        raise BadInput(f"{where}: {len(stretch)} rows; at least {FEWEST}")
+        raise BadInput(f"{name}: {len(stretch)} rows; at least {FEWEST}")
     if stretch.max() > LARGEST_STRETCH:
         raise BadInput(
-            f"{where}: stretched to {stretch.max():g}: per cent? strains are fractions, or write the unit: "
+            f"{name}: stretched to {stretch.max():g}: per cent? strains are fractions, or write the unit: "
             "strain [%]"
         )
     if stretch.min() <= 0.0:
         raise BadInput(
-            f"{where}: stretch = {stretch.min():g}: must be greater than 0; of strains write strain"
+            f"{name}: stretch = {stretch.min():g}: must be greater than 0; of strains write strain"
         )
     direction = np.sign(stretch[np.argmax(np.abs(stretch - stretch[0]))] - stretch[0])
     reached = np.maximum.accumulate(direction * stretch)
     reversed_rows = reached - direction * stretch > BACK * np.ptp(stretch)
     if reversed_rows.any():
         row = int(np.argmax(reversed_rows))
-        line = columns.rows[row].where if columns is not None else f"{where}, row {row + 1}"
+        line = columns.rows[row].where if columns is not None else f"{name}, row {row + 1}"
         raise BadInput(
             f"{line}: stretch goes back to {stretch[row]:.4g}: an unloading branch; keep one loading"
         )
     tension = np.sign(stretch - 1.0) * stress
     if tension.max() <= 0.0 or tension.min() < -0.05 * tension.max():
         raise BadInput(
-            f"{where}: stress {stress.min():g} to {stress.max():g} Pa: tension is > 0, compression < 0"
+            f"{name}: stress {stress.min():g} to {stress.max():g} Pa: tension is > 0, compression < 0"
         )
     remedies = {1.0: "Leave that out by --up-to", -1.0: "Leave out the rows below"}
     for side, remedy in remedies.items():
@@ -107,10 +107,10 @@ def require_loading(curve: Curve, columns: Columns | None = None) -> None:
         side_pull = np.where(strain > 0.0, tension, 0.0)
         if side_pull[np.argmax(strain)] < BROKEN * side_pull.max():
             peak = stretch[np.argmax(side_pull)]
-            raise BadInput(f"{where}: the stress falls after stretch {peak:.4g}: torn? {remedy} {peak:.4g}")
+            raise BadInput(f"{name}: the stress falls after stretch {peak:.4g}: torn? {remedy} {peak:.4g}")
     if tension.max() < SOFTEST * np.abs(stretch - 1.0).max():
         raise BadInput(
-            f"{where}: at most {tension.max():g} Pa, softer than any solid sheet: write the stress's unit in "
+            f"{name}: at most {tension.max():g} Pa, softer than any solid sheet: write the stress's unit in "
             "the header, as engineering_stress [MPa]"
         )
 

@@ -61,7 +61,7 @@ class Verlet(Integrator):
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """Return one explicit step. Raises StepFailed when a number overflows."""
-        system, h, time = self.system.within(state, at_most), at_most, state.time + at_most
+        system, h, time = self.system.for_step(state, at_most), at_most, state.time + at_most
         motion = system.prescribed
         u = state.u + h * state.v + 0.5 * h * h * state.a
         half = state.v + 0.5 * h * state.a

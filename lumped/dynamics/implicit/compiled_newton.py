@@ -72,7 +72,7 @@ def compiled_of(system: System) -> Compiled | None:
 
 @njit
 def iterate(
-    left: int,
+    remaining: int,
     u: np.ndarray,
     base_u: np.ndarray,
     base_v: np.ndarray,
@@ -82,19 +82,19 @@ def iterate(
     arrays: Arrays,
     factors: np.ndarray,
 ) -> tuple[bool, int]:
-    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place, which has
-    corrections `left`: whether that is done, and what corrections are left then, with other factors; 0 if it
-    is lost."""
+    """Solve the equation with û, v̂ (n, 3), c₂ and c₁, and loads (n, 3), for u in place.
+    Return whether it is solved, and the number of corrections that remain of `remaining`, with other factors;
+    0 without a solution."""
     last = np.inf
-    while left > 0:
+    while remaining > 0:
         length = correct(u, base_u, base_v, by, external, arrays, factors)
-        left -= 1
+        remaining -= 1
         if length < limits.tolerance:
-            return True, left
+            return True, remaining
         if not length <= limits.largest:
             break
         if length > limits.stale * last:
-            return False, left
+            return False, remaining
         last = length
     return False, 0
 

@@ -50,32 +50,32 @@ class Step(NamedTuple):
 @njit
 def solve_stages(
     first: int,
-    left: int,
+    remaining: int,
     step: Step,
     stages: Stages,
     limits: NewtonLimits,
     arrays: Arrays,
     factors: np.ndarray,
 ) -> tuple[bool, int, int, int]:
-    """Solve the stages from the `first` on; that one is begun if it has corrections `left`. Whether all
-    are solved, else the stage that is not and the corrections left as by `iterate`; how many were made."""
+    """Solve the stages from `first` on, which goes on with `remaining` corrections unless 0. Return whether
+    all are solved, else the unsolved stage and its remaining corrections; and the number of corrections."""
     made, by = 0, (step.mass_coefficient, step.damping_coefficient)
     bases_u, bases_v = arrays.base_u, arrays.base_v
     base_u, base_v = bases_u.reshape(-1), bases_v.reshape(-1)
     for i in range(first, len(stages.u)):
         u, v, a = stages.u[i].reshape(-1), stages.v[i].reshape(-1), stages.a[i].reshape(-1)
         _begin(i, step, stages, base_u, base_v)
-        if i > first or left == 0:
-            left = limits.corrections
+        if i > first or remaining == 0:
+            remaining = limits.corrections
             _guess(i, step, stages, base_u, u)
         at = min(i, len(step.loads) - 1)
-        given = left
-        solved, left = iterate(
+        given = remaining
+        solved, remaining = iterate(
             given, stages.u[i], bases_u, bases_v, by, step.loads[at], limits, arrays, factors
         )
-        made += given - left
+        made += given - remaining
         if not solved:
-            return False, i, left, made
+            return False, i, remaining, made
         for row in range(len(u)):
             change = u[row] - base_u[row]
             v[row] = base_v[row] + step.damping_coefficient * change
@@ -88,7 +88,7 @@ def solve_stages(
 
 @njit
 def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.ndarray) -> None:
-    """û and v̂ of stage i."""
+    """Set û and v̂ of stage i."""
     start, speed = stages.u[0].reshape(-1), stages.v[0].reshape(-1)
     for row in range(len(base_u)):
         base_u[row], base_v[row] = start[row], speed[row]
@@ -111,7 +111,7 @@ def _begin(i: int, step: Step, stages: Stages, base_u: np.ndarray, base_v: np.nd
 
 @njit
 def _guess(i: int, step: Step, stages: Stages, base_u: np.ndarray, u: np.ndarray) -> None:
-    """What the accelerations of the stages before let expect."""
+    """Set u of stage i, extrapolated from the accelerations of earlier stages."""
     u[:] = base_u
     for j in range(i):
         weight = step.guesses[i, j] / (step.damping_coefficient * step.damping_coefficient)

@@ -72,7 +72,7 @@ class Esdirk(Integrator):
 
     @classmethod
     def default_step(cls, period: object, limit: object) -> float:
-        """Infinite: an adaptive run finds its first step where it begins."""
+        """Return ∞: an adaptive run computes its first step at its start."""
         return np.inf
 
     def forget(self) -> None:
@@ -97,10 +97,10 @@ class Esdirk(Integrator):
             error = max(error, self._largest * step.error_of_branches())
             reached = max(self._largest, largest(END, step.stages.u))
             if self.system.items:  # which are touched within steps
-                found = self._advance(state, step)
-                now = self._energies(found.state)
+                advance = self._advance(state, step)
+                now = self._energies(advance.state)
                 self._energy = max(self._energy, *map(abs, now))
-                gained = abs(sum(now) - sum(began) + found.dissipated - found.work)
+                gained = abs(sum(now) - sum(began) + advance.dissipated - advance.work)
                 error = max(error, reached * ENERGY * gained / (self._energy or 1.0))
             return step, error, self._error * reached
 
@@ -125,9 +125,9 @@ class Esdirk(Integrator):
         return (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._small
 
     def _begin(self, state: State) -> None:
-        """What the error is relative to before anything has moved, and the first step [s]: parts of how far
-        the forces lead until all rests, were it linear, and of the time in which they get there."""
-        system, still = self.system.within(state), np.zeros_like(state.u)
+        """Set the first step [s] and the displacement that errors are relative to before any motion:
+        fractions of the time and distance to equilibrium if the lattice were linear."""
+        system, still = self.system.for_step(state), np.zeros_like(state.u)
         problem = system.problem
         force = system.unbalanced(state.u, still, state.time)
         try:
@@ -142,7 +142,8 @@ class Esdirk(Integrator):
         self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
-        """The state with its acceleration from now on, and how long nothing changes its course at most."""
+        """Return the state with its acceleration just after its time, and the largest step [s] before the
+        next kink of a load or motion."""
         system, now = self.system, state.time
         if not len(system.kinks):
             return state, at_most
@@ -150,13 +151,13 @@ class Esdirk(Integrator):
         if np.any(np.abs(system.kinks - now) < near) and now > near:
             if system.prescribed.jumps(now):  # and so do dampers: the steps begin as at the start
                 self.control.step = min(self.control.step, self._first)
-            force = system.within(state).unbalanced(state.u, state.v, now)
+            force = system.for_step(state).unbalanced(state.u, state.v, now)
             state = replace(state, time=now, a=system.accelerate(force))
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
 
     def _solved(self, state: State, h: float, tolerance: float | None) -> EsdirkStep:
-        """A step with all its stages."""
+        """Return a step with all its stages."""
         by, step = 1.0 / (GAMMA * h), EsdirkStep(self.system, state, h)
         if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
             middle = state.u + 0.5 * h * (state.v + 0.25 * h * state.a)
@@ -170,8 +171,8 @@ class Esdirk(Integrator):
         return step
 
     def _shifts(self, times: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
-        """How far supports are from where the stages' velocities lead, (7, n, 3) [m], and their velocities
-        beside that at the start, (7, n, 3) [m/s]; both empty where none moves."""
+        """Return the offsets of the supports from the positions by the stages' velocities, (7, n, 3) [m], and
+        of their velocities from those at the start, (7, n, 3) [m/s]; both empty without moving supports."""
         system, motion, began = self.system, self.system.prescribed, float(times[0])
         if not motion.moving:
             nothing = np.empty((0, *system.problem.loads.dead.shape))
@@ -232,8 +233,8 @@ class Esdirk(Integrator):
         return np.array([self.system.power(state), self._put_in(state)])
 
     def _put_in(self, stage: State, before: bool = False) -> float:
-        """Power [W] that moving supports, but for what speeds up their own masses, and loads without a
-        potential put in from a moment on, or until then."""
+        """Power [W] put in by moving supports, without the acceleration of their own masses, and by loads
+        without a potential, from a moment on, or until then."""
         system, motion, put_in = self.system, self.system.prescribed, 0.0
         if motion.moving:
             put_in += float(np.sum(system.exerted(stage) * motion.rate(stage.time, before=before)))

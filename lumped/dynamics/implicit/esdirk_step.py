@@ -54,11 +54,11 @@ class EsdirkStep:
             return self.system
         return self._relaxing(self.h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * self.h)
 
-    def _relaxing(self, relaxed: np.ndarray, own: float) -> System:
+    def _relaxing(self, relaxed: np.ndarray, h_gamma: float) -> System:
         """Return the equations of motion with branches by `Maxwell.stage`."""
         if self.system.maxwell is None or (start := self.memories[0]) is None:
             return self.system
-        return self.system.with_branches(self.system.maxwell.stage(start, relaxed, own))
+        return self.system.with_branches(self.system.maxwell.stage(start, relaxed, h_gamma))
 
     def error_of_branches(self) -> float:
         """Return the error of the strains in the branches' springs, relative to the largest one."""
@@ -86,19 +86,19 @@ class EsdirkStep:
         inside = [system] * len(times)
         if system.maxwell is not None:
             inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
-        c1, ended, i = 1.0 / (GAMMA * h), end.time == times[-1], int(np.abs(theta - 0.5).argmin())
+        c1, reaches_end, i = 1.0 / (GAMMA * h), end.time == times[-1], int(np.abs(theta - 0.5).argmin())
         if newton.excess(inside[i], State(float(times[i]), u[i], v[i], a[i]), (c1**2, c1)) > enough:
-            for i in range(len(times) - ended):
+            for i in range(len(times) - reaches_end):
                 base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
                 equation = StepEquation(inside[i], float(times[i]), *base, (c1**2, c1))
-                found = u[i]  # the polynomial's stays where there is no solution
+                corrected = u[i]  # the polynomial's stays where there is no solution
                 for stale in (None, STALE):  # with the step's factors, or anew with the best
                     with suppress(StepFailed, SingularMatrixError):
-                        found = newton.solve_equation(equation, u[i], tolerance, stale)
+                        corrected = newton.solve_equation(equation, u[i], tolerance, stale)
                         break
-                a[i] += c1**2 * (found - u[i])
-                u[i] = found
-        if ended:
+                a[i] += c1**2 * (corrected - u[i])
+                u[i] = corrected
+        if reaches_end:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
         for i, one in enumerate(inside if start is not None else ()):
             if (maxwell := one.maxwell) is not None and start is not None:

@@ -68,7 +68,7 @@ class GeneralisedAlpha(Integrator):
         return Advance(after, 0.5 * h * (before + power) + relaxed, work(self.system, state, after))
 
     def _old(self, state: State, h: float) -> np.ndarray:
-        """The algorithm's acceleration at a step's start."""
+        """Return the algorithm's acceleration at a step's start."""
         if self._algorithm is None:
             return state.a
         return shifted(state.a, self._algorithm, h, self._before)
@@ -84,7 +84,7 @@ class GeneralisedAlpha(Integrator):
         turn = motion.rate(time) - motion.rate(state.time)
         step = step_of(self._rule, h, state.u, state.v, state.a, self._old(state, h))
         base_u, base_v = step.base_u + held, step.base_v + turn
-        equation = StepEquation(system.within(state, h), time, base_u, base_v, (step.by_a, step.by_v))
+        equation = StepEquation(system.for_step(state, h), time, base_u, base_v, (step.by_a, step.by_v))
         try:
             u = self._newton.solve_equation(equation, base_u + state.a / step.by_a)
         except StepFailed:  # after a jump the old acceleration leads nowhere

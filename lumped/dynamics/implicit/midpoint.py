@@ -36,8 +36,8 @@ class Midpoint(Integrator):
         self._newton.forget()
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
-        """One step. Raises StepFailed."""
-        system, h = self.system.within(state, at_most), at_most
+        """Return the state after one step. Raises StepFailed."""
+        system, h = self.system.for_step(state, at_most), at_most
         time, middle = state.time + h, state.time + 0.5 * h
         coupling = system.coupling
         algebraic = coupling.algebraic if coupling is not None else np.zeros((1, 1), dtype=bool)

@@ -81,8 +81,8 @@ class Newton:
         weigh: Callable[[np.ndarray], np.ndarray] = lambda correction: correction,
         stale: float | None = None,
     ) -> np.ndarray:
-        """u with Tᵀ residual(u) = 0. key: factors of another key do not serve; weigh: the correction
-        (size, 3) from the solution of the linear system; stale: as of the iteration, else its own. Raises
+        """Return u with Tᵀ residual(u) = 0. key: factors of another key are not reused; weigh: map from the
+        solution of the linear system to the correction (size, 3); stale: by default the iteration's. Raises
         StepFailed."""
         problem, stale = self._system.problem, self._stale if stale is None else stale
         small = self.tolerance if tolerance is None else tolerance
@@ -114,9 +114,9 @@ class Newton:
         tolerance: float | None = None,
         stale: float | None = None,
     ) -> np.ndarray:
-        """u of the equation. tolerance [m]: of the last correction, stale: the ratio of successive ones from
-        which on factors are made anew, else the iteration's own. Raises StepFailed, or
-        SingularMatrixError."""
+        """Return u of the equation. tolerance [m]: of the last correction; stale: ratio of successive
+        corrections above which the factors are renewed; both by default the iteration's. Raises StepFailed,
+        or SingularMatrixError."""
         limits = self._limits(tolerance, stale)
         found = self._solve_compiled(equation, guess, limits)
         if found is not None:
@@ -135,13 +135,13 @@ class Newton:
         factor = self._factor if self._key == by else None
         return 0.5 * float(left @ factor.solve(left, SOLVED)) if factor else np.inf
 
-    def correction(self, left: np.ndarray) -> np.ndarray | None:
-        """Return the change (n, 3) [m] with which the factors kept take a residual (m,) off, None without."""
+    def correction(self, residual: np.ndarray) -> np.ndarray | None:
+        """Return the change (n, 3) [m] by the stored factors for a residual (m,), None without factors."""
         problem, band = self._system.problem, self._system.problem.system.band
         if self._factored is not None and band is not None:
-            found = banded.solve_unrefined(self._factors, band.width, band.order, left)
+            found = banded.solve_unrefined(self._factors, band.width, band.order, residual)
         elif self._factor is not None:
-            found = self._factor.solve(left, SOLVED)
+            found = self._factor.solve(residual, SOLVED)
         else:
             return None
         return problem.expand(found)
@@ -173,7 +173,7 @@ class Newton:
         return NewtonLimits(small, self._system.problem.size, ratio, CORRECTIONS)
 
     def near(self, mass_coefficient: float) -> bool:
-        """Whether the compiled iteration's factors serve an equation with this c₂."""
+        """Return whether the compiled iteration's factors can be reused for an equation with this c₂."""
         return (
             self._factored is not None and abs(mass_coefficient / self._factored - 1.0) < REUSE_FACTORS_WITHIN
         )
@@ -198,23 +198,23 @@ class Newton:
     def _solve_compiled(
         self, equation: StepEquation, guess: np.ndarray, limits: NewtonLimits
     ) -> np.ndarray | None:
-        """u of the equation, None where that is not compiled, or its tangent not positive definite. Raises
-        StepFailed."""
+        """Return u of the equation, None if it is not compiled or its tangent is not positive definite.
+        Raises StepFailed."""
         if (compiled := self._compiled) is None:
             return None
-        u, left, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
+        u, remaining, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
         given = equation.by, self._system.loads([equation.time])[0], limits, compiled.arrays
         while self.near(equation.by[0]) or self._factorise(equation, u):
-            solved, left = iterate(left, u, *base, *given, self._factors)
-            if self._solved(solved, left):
+            solved, remaining = iterate(remaining, u, *base, *given, self._factors)
+            if self._solved(solved, remaining):
                 return u
         return None
 
-    def _solved(self, solved: bool, left: int) -> bool:
-        """Whether the compiled iteration is done; if it is not, its factors do not serve. Raises StepFailed
-        where no corrections are left."""
+    def _solved(self, solved: bool, remaining: int) -> bool:
+        """Return whether the compiled iteration has converged, and drop its factors otherwise. Raises
+        StepFailed if no corrections are left."""
         if not solved:
             self._factored = None
-            if left == 0:
+            if remaining == 0:
                 raise StepFailed(UNSOLVED)
         return solved

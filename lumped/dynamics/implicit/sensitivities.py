@@ -44,11 +44,11 @@ Change = np.ndarray  # δ s, δ s′ and δ s″, (3, n, 3)
 def require_followed(names: Sequence[str], integrator: str, keeping: Mapping[str, Any]) -> None:
     """Raise BadInput for derivatives that a run cannot have."""
     if names and integrator != Esdirk.name:
-        raise BadInput(f"sensitivities: integrator = 'esdirk' has them, '{integrator}' has none")
+        raise BadInput(f"sensitivities: need integrator = 'esdirk', not '{integrator}'")
     if len(names) > MOST:
-        raise BadInput(f"sensitivities: {len(names)} parameters, {MOST} at most, and no adjoint in time")
+        raise BadInput(f"sensitivities: {len(names)} parameters; {MOST} at most")
     if names and keeping.get("store"):
-        raise BadInput("sensitivities: a run that is stored cannot take them up: leave the store out")
+        raise BadInput("sensitivities: not for a stored run; leave the store out")
 
 
 class Sided:
@@ -62,7 +62,7 @@ class Sided:
         self.systems, states = zip(*made, strict=True)
         places = [system.problem.prescribed(1.0) for system in self.systems]
         if self.systems[0].items or not np.array_equal(*places):
-            raise BadInput(f"sensitivities: {name}: not by supports' places, nor beside obstacles")
+            raise BadInput(f"sensitivities: {name}: not by positions of supports, nor with obstacles")
         self.half, self.largest, self.memories = 0.5 * over, 0.0, [state.memory for state in states]
         high_state, low_state = (np.array([state.u, state.v, state.a]) for state in states)
         self.change: Change = 0.5 * (high_state - low_state)
@@ -79,7 +79,7 @@ class Sided:
         for system, sign, memory in zip(self.systems, SIGNS, self.memories, strict=True):
             u, v, a = at + sign * self.change
             state = State(time, u, v, a, memory)
-            found.append(system.accelerate(system.within(state).unbalanced(state.u, state.v, time)))
+            found.append(system.accelerate(system.for_step(state).unbalanced(state.u, state.v, time)))
         return np.asarray(0.5 * (found[0] - found[1]))
 
 
@@ -148,8 +148,8 @@ class SensitiveEsdirk(Esdirk):
         for _ in range(CORRECTIONS):
             moved = change - base[0]
             whole = np.array([change, base[1] + c1 * moved, c1**2 * moved])
-            left = self.system.problem.reduce(one.residual(inside, at, whole, time))
-            if (correction := self._newton.correction(left)) is None:
+            residual = self.system.problem.reduce(one.residual(inside, at, whole, time))
+            if (correction := self._newton.correction(residual)) is None:
                 equation = StepEquation(step.in_stage(i), time, at[0], at[1], (c1**2, c1))
                 self._newton.renew(equation, at[0])
                 continue

@@ -65,7 +65,7 @@ def initial_state(
     memory = None if system.maxwell is None else system.maxwell.at_rest(u)
     v = system.prescribed.rate(0.0)
     v = v if system.prescribed.moving else np.zeros_like(u)
-    a = system.accelerate(system.within(State(0.0, u, v, v, memory)).unbalanced(u, v, 0.0))
+    a = system.accelerate(system.for_step(State(0.0, u, v, v, memory)).unbalanced(u, v, 0.0))
     if system.constrained:
         u, a = _with_multipliers(system, u, a)
     return State(0.0, u, v, a, memory)

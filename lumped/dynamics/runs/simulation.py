@@ -107,7 +107,7 @@ def simulate(
     scene = scene_of(scene)
     calibration = calibration or default(scene)
     system, start = in_motion(scene, calibration, weights)
-    integrator, why = resolve_integrator(integrator, system, options)
+    integrator, reason = resolve_integrator(integrator, system, options)
     require_followed(sensitivities, integrator, keeping)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
@@ -141,7 +141,7 @@ def simulate(
     )
     history = record(recipe, keeping, start_time)
     history.settings.update({"largest_step": limit.step} if limit is not None else {})
-    history.settings.update({"integrator_reason": why} if why else {})
+    history.settings.update({"integrator_reason": reason} if reason else {})
     if sides:
         probes, count = MidSurface(system.assembly.lattice, scene.probe_points()), len(history.time)
         rates = np.concatenate([block for _, block in method.found], axis=1)[:, :count]

@@ -66,7 +66,7 @@ def buckling_modes(
                 raise BadInput(f"buckling: count = {count}: no such modes were found: {error}") from None
     order, positive = np.argsort(-per_load), int(np.sum(per_load > STIFFENS))
     if positive < count:
-        few = f"count = {count}: there are {positive}" if positive else "the loads do not soften the sheet"
-        raise BadInput(f"buckling: {few}")
+        fault = f"count = {count}: there are {positive}" if positive else "the loads do not soften the sheet"
+        raise BadInput(f"buckling: {fault}")
     states = [structure.advance(rest, still, 0.0, steps[:, mode]) for mode in order]
     return 1.0 / per_load[order], states

@@ -51,7 +51,7 @@ def predicted(path: Path[State, Forces], target: float, reach: float, factor: Fa
         target = path.load_factor + (target - path.load_factor) * reach / first.length
         first = _linear_step(path, target, first.factor)
     if not first.length < path.limits.farthest:
-        raise LoadStepFailed(Status.DIVERGED, "the first step has no end", path.limits.first_reach)
+        raise LoadStepFailed(Status.DIVERGED, "the first step is too long", path.limits.first_reach)
     return first
 
 
@@ -100,7 +100,7 @@ def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -
                 raise LoadStepFailed(Status.STEP_LIMIT, reason, first.length)
             run.correct(forces, imbalance, relative)
             if not run.lengths[-1] < limits.farthest:
-                raise LoadStepFailed(Status.DIVERGED, "the corrections have no end", first.length)
+                raise LoadStepFailed(Status.DIVERGED, "a correction is too long", first.length)
     except SingularMatrixError as error:
         raise LoadStepFailed(Status.SINGULAR, str(error), first.length) from None
     reason = f"no equilibrium in {limits.corrections} corrections"

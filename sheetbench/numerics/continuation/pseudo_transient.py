@@ -103,7 +103,7 @@ class _Creep(Generic[State, Forces]):
                 break
             self.drag, self.careful = FASTER * self.drag, CAUTION
             if self.drag > STIFFEST:
-                raise LoadStepFailed(Status.STEP_LIMIT, "it creeps no further", 0.0)
+                raise LoadStepFailed(Status.STEP_LIMIT, "the relaxation does not go on", 0.0)
         self.length = self.structure.length(self.state, state)
         self.state = self.structure.unextrapolated(state)
         self.careful -= 1
@@ -181,7 +181,7 @@ class _Creep(Generic[State, Forces]):
                 self.drag, self.careful = drag, CAUTION
                 return
             push /= FASTER
-        raise LoadStepFailed(Status.UNSTABLE, "it creeps to a saddle and does not leave it", 0.0)
+        raise LoadStepFailed(Status.UNSTABLE, "the relaxation ends at a saddle point", 0.0)
 
     def _push(self, state: State, step: np.ndarray) -> State:
         """Return a state moved by a step (unknowns,), with directors of unit length."""

@@ -49,7 +49,8 @@ def soften(penalties: Sequence[Any], share: float) -> None:
 def require_way(path: Path[State, Forces], state: State, load_factor: float) -> None:
     """Raise LoadStepFailed if the way from a path's last equilibrium leads through an obstacle."""
     structure = path.structure
-    before, after = structure.placed(path.state, path.load_factor), structure.placed(state, load_factor)
+    before = structure.configuration(path.state, path.load_factor)
+    after = structure.configuration(state, load_factor)
     if any(one.near(after).share_of_way(one.near(before)) < 1.0 for one in structure.contacts):
         raise LoadStepFailed(Status.STEP_LIMIT, "a step led through an obstacle", path.limits.first_reach)
 
@@ -109,7 +110,7 @@ def stiffened(
             require_way(path, state, load_factor)
             path.put(state, load_factor)
         except LoadStepFailed as failure:
-            return Fault(failure.status, f"descent with the contact as stiff as it is: {failure}")
+            return Fault(failure.status, f"descent with the full stiffness of contact: {failure}")
         if (fault := path.inspect(path)) is not None:
             return fault
     return None

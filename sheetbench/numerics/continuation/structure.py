@@ -48,7 +48,7 @@ class Structure(Protocol[State, Forces]):
         """Return the sum of the full loads on the structure at rest [N]."""
         return 0.0
 
-    def placed(self, state: State, load_factor: float) -> Any:
+    def configuration(self, state: State, load_factor: float) -> Any:
         """Return a state at a load factor in the form for contacts."""
 
     def restarted(self, state: State, before: State, beyond: float) -> tuple[State, float]:

@@ -57,17 +57,17 @@ def trace_path(
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        ended = stiffened(path, _trace, near) if structure.contacts else _trace(path, near)
-        path.fault = ended
-        path.status, note = ended or stability(path)
-        if buckled and settle is not None and ended is None and path.status is Status.UNSTABLE:
+        fault = stiffened(path, _trace, near) if structure.contacts else _trace(path, near)
+        path.fault = fault
+        path.status, note = fault or stability(path)
+        if buckled and settle is not None and fault is None and path.status is Status.UNSTABLE:
             try:
                 path.limit = path.factorisations + path.limits.factorisations
                 path.put(settle(path, 1.0), 1.0)
-                path.notes.append("begun along the buckling mode of an unstable equilibrium")
+                path.notes.append("started along the buckling mode of an unstable equilibrium")
                 path.status, note = stability(path)
             except LoadStepFailed as failure:
-                note = f"{note}; beside it {failure}"
+                note = f"{note}; from its buckling mode: {failure}"
         path.notes.extend([note] if note else [])
         return path
 
@@ -93,8 +93,8 @@ def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault
     if path.load_factor > 0.0:
         limited = f", after {ended.careful} factorisations" if path.factorisations >= path.limit else ""
         path.notes.append(
-            f"small load steps end at load factor {path.load_factor:.4g}{limited}: this equilibrium, which "
-            "large ones led to, may be on another branch"
+            f"small load steps end at load factor {path.load_factor:.4g}{limited}: this equilibrium, "
+            "reached by large ones, may be on another branch"
         )
     path.put(reached, 1.0)
     return None
@@ -133,9 +133,9 @@ def _trace_carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | 
     return Ending(ended, budget)
 
 
-def _trace_snaps(path: Path[State, Forces], ended: Ending) -> Fault | None:
+def _trace_snaps(path: Path[State, Forces], ending: Ending) -> Fault | None:
     """Lead a path past the limit points at which it ends; return the fault of an end before load factor 1."""
-    limits, reason = path.limits, ended.reason
+    limits, reason = path.limits, ending.reason
     while isinstance(reason, LoadStepFailed):
         halted = reason.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
         allowed = path.factorisations < path.limit and len(path.snaps) < limits.snaps
@@ -153,7 +153,7 @@ def _trace_snaps(path: Path[State, Forces], ended: Ending) -> Fault | None:
             tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
             return _fault_at_end(path, reason, tried)
         path.limit = min(path.factorisations + limits.factorisations, limits.in_all)
-        reason = path.inspect(path) or _take_load_steps(path, ended.careful > 0)
+        reason = path.inspect(path) or _take_load_steps(path, ending.careful > 0)
         path.snaps.append(left_at)
         begin = "" if before is Status.CONVERGED else "unstable "
         snapped = f"{begin}before it snapped at load factor {left_at:.4g}: {reservation}"

@@ -99,4 +99,4 @@ class Controller(Remembering):
         if not self.floored:
             return ""
         count = f"{self.floored} step{'s' * (self.floored > 1)} of the shortest length"
-        return f"{count} with a larger error than asked for"
+        return f"{count} with a larger error than the limit"

@@ -19,25 +19,25 @@ INSTEAD = {  # by the words that are often written: the feature of sheetbench
     "young_x young_y young_z poisson_xy poisson_yx poisson_21 shear_xy orthotropic orthotropy anisotropic "
     "fibre fibres fiber fibers fibre_angle fiber_angle": "fibres are [material] kind = 'orthotropic' with "
     "young_1, young_2, poisson_12, shear_12 and an angle; no other anisotropy is modelled",
-    "laws hyperelastic neo_hookean ogden yeoh gent c10 c01 c20 c30": "of rubber there are the laws "
+    "laws hyperelastic neo_hookean ogden yeoh gent c10 c01 c20 c30": "laws of rubber are "
     "neo-hookean, mooney-rivlin, yeoh and gent: `law` in [material], each with its own constants",
     "prony viscoelastic viscoelasticity viscosity creep tan_delta damping_ratio quality": "viscosity is "
     "linear and of the whole [material]: damping_time, damping_rate, loss_factor with a frequency or a "
     "band, or [[material.relaxation]]",
-    "contact contacts obstacles floor ground table wall ball rod box self_contact": "what the sheet touches "
-    "is an [[obstacle]], a rigid plane, sphere or cylinder, with friction in motion; no other bodies, nor "
-    "the sheet itself",
+    "contact contacts obstacles floor ground table wall ball rod box self_contact": "a body that the "
+    "sheet touches is an [[obstacle]]: a rigid plane, sphere or cylinder, with friction in motion; the sheet "
+    "does not touch itself",
     "prestretch pre_stretch prestrain pre_strain prestress pre_stress residual_stress initial_stress "
-    "initial_strain": "what the sheet is stretched by where it is drawn is [natural] strain or pretension",
-    "rest_shape rest_curvature natural_curvature initial_curvature": "a sheet that is bent where nothing "
-    "acts on it has a [natural] curvature",
+    "initial_strain": "the stretch of the sheet as it is drawn is [natural] strain or pretension",
+    "rest_shape rest_curvature natural_curvature initial_curvature": "a sheet that is bent without "
+    "loads has a [natural] curvature",
     "initial_state initial_displacement initial_velocity velocity release": "motion starts at rest, from "
     'the flat sheet or, with [initial] shape = "static", from the equilibrium under loads, of which those '
     "with hold = true are let go at t = 0; `history` makes loads come and go",
     "heat thermal thermal_expansion swelling growth": "heat is [temperature] with an expansion of the "
     "material; swelling and growth are [natural] strain",
-    "fluid water wind lift added_mass buoyancy aerodynamics": "of a fluid there is the drag of still air, "
-    "[air]; no flow, lift or mass that moves along",
+    "fluid water wind lift added_mass buoyancy aerodynamics": "the only fluid force is the drag of still "
+    "air, [air]; no flow, lift or added mass",
     "magnetic magnetisation magnetization electric voltage charge": "magnetic and electric forces are not "
     "modelled; give the loads that they make",
     "tendon tendons cable cables muscle muscles bellows chamber pneumatic": "actuators are chains of "

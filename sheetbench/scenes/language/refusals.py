@@ -1,6 +1,6 @@
 """The reason of a scene's refusal: pydantic's list of faults as one line of keys, values and allowed values.
 
-    load 2.pressure = 200.0: unknown key; known here are history, kind, value
+    load 2.pressure = 200.0: unknown key; known: history, kind, value
 
 Lists count from 1. The line names at most three faults, and the number of further ones.
 """
@@ -71,7 +71,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
                 return f"{key}: {not_modelled}"
             keys = _keys(_locate(fault["loc"][:-1], schema)[1])
             near = did_you_mean(str(where[-1]), keys)
-            hint = f"did you mean {near}?" if near else f"known here are {', '.join(keys)}"
+            hint = f"did you mean {near}?" if near else f"known: {', '.join(keys)}"
             return f"{given}: unknown key; {hint}"
         case "missing":
             return f"{key}: missing"

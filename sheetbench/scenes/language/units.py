@@ -95,7 +95,7 @@ def quantity(text: str, unit: str) -> float:
     if match[2]:
         size, dimension = _unit(match[2])
         if dimension != _unit(unit)[1]:
-            needed = f"needed is {_with_article(unit)}: {example}"
+            needed = f"{_with_article(unit)} is needed: {example}"
             raise BadInput(f"'{text}' is {_dimension_name(dimension, match[2])}; {needed}")
         value *= size / _unit(unit)[0]
     if abs(value) > LARGEST:
@@ -146,14 +146,14 @@ def _unit(text: str) -> tuple[Fraction, Dimension]:
             candidates = [unit for unit in SPELLED if unit.casefold() == part.casefold()]
             meant = f" ({' or '.join(candidates)}?)" if candidates else ""
             known = ", ".join(list(UNITS)[:-1])
-            raise BadInput(f"'{part}' is no unit known here{meant}; known are {known}, with prefixes G to µ")
+            raise BadInput(f"'{part}' is no known unit{meant}; known: {known}, with prefixes G to µ")
         power = sign * int((match[2] or "1").translate(POWERS))
         one, of = SPELLED[match[1]]
         size *= one**power
         dimension = [have + power * more for have, more in zip(dimension, of, strict=True)]
         sign = 1
     if sign < 0:
-        raise BadInput(f"'{text}' is no unit: nothing stands after the last /")
+        raise BadInput(f"'{text}' is no unit: nothing follows the last /")
     return size, tuple(dimension)
 
 

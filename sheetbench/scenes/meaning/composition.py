@@ -62,13 +62,13 @@ def composition_at(scene: SceneFields, points: np.ndarray) -> dict[str, np.ndarr
     return {"patch": patch, **constants} if scene.patches else constants
 
 
-def _write_constants(constants: Constants, own: dict[str, float], where: Any = ...) -> None:
+def _write_constants(constants: Constants, given: dict[str, float], where: Any = ...) -> None:
     """Write a patch's own constants into arrays."""
-    for name, value in own.items():
+    for name, value in given.items():
         if name in NUMBERS:
             getattr(constants, name)[where] = value
     for ply in constants.plies:
-        for name, value in in_own_axes(own).items():
+        for name, value in in_own_axes(given).items():
             getattr(ply, name)[where] = value
 
 

@@ -24,7 +24,7 @@ from itertools import combinations, pairwise, product
 
 import numpy as np
 
-from sheetbench.scenes.meaning.kinematics import UP, MovedEdge, Placed, TurnedEdge, bent_or_tilted
+from sheetbench.scenes.meaning.kinematics import UP, Displaced, MovedEdge, TurnedEdge, bent_or_tilted
 from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
 from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
@@ -93,7 +93,7 @@ def _corner_conflict(key: str, one: Holder, other: Holder | Chain, driven: Drive
     if isinstance(other, Chain):
         base = f"{key}: the base of the chain on edge {other.edge} stands at the corner that the motion on"
         return f"{base} edge {one.edge} moves" if corner in [ends[end] for end in other.base_ends] else ""
-    moving = (each if isinstance(each, EdgeMotion) else each.motion for each in (one, other))
+    moving = (holder if isinstance(holder, EdgeMotion) else holder.motion for holder in (one, other))
     tables = [table for table in moving if table is not None]
     if not tables and driven.keys().isdisjoint((one.edge, other.edge)):
         return ""  # both at rest
@@ -103,7 +103,7 @@ def _corner_conflict(key: str, one: Holder, other: Holder | Chain, driven: Drive
     largest, moved, turned = 0.0, "", ""
     for time in sorted([*samples, *between]):
         when = f" at t = {time:.3g} s" if tables else ""
-        (u, director), (v, normal) = (_prescribed(each, corner, driven, sheet, time) for each in (one, other))
+        (u, director), (v, normal) = (_prescribed(h, corner, driven, sheet, time) for h in (one, other))
         for axis in axes:
             if (gap := abs(u[axis] - v[axis])) > max(largest, EXACT * max(sheet.lengths)):
                 mover, held = (one, other) if abs(u[axis]) >= abs(v[axis]) else (other, one)
@@ -112,8 +112,8 @@ def _corner_conflict(key: str, one: Holder, other: Holder | Chain, driven: Drive
                 largest, moved = gap, f"{moves}: {by}"
         if np.abs(director - normal)[turns].max(initial=0.0) > EXACT:
             turner, held = (one, other) if director[2] <= normal[2] else (other, one)
-            where = f"the corner where {_holder_name(held)} holds it otherwise"
-            turned = f"{_holder_name(turner)} turns the director at {where}{when}"
+            corner_text = f"the corner where {_holder_name(held)} holds it otherwise"
+            turned = f"{_holder_name(turner)} turns the director at {corner_text}{when}"
     return (moved and f"{key}: {moved}") or (turned and f"{key}: {turned}")
 
 
@@ -131,13 +131,13 @@ def _prescribed(
     """Return the displacement [m] and the director (3,) that are prescribed at the corner."""
     point, shift = np.array([corner]), np.zeros(3)
     if isinstance(holder, EdgeMotion):
-        placed = MovedEdge(holder, sheet).placed(point, time=time)
+        displaced = MovedEdge(holder, sheet).displaced(point, time=time)
     else:
-        still = Placed(np.zeros((1, 3)), np.zeros((3, 3)))
-        placed = driven[holder.edge].placed(point) if holder.edge in driven else still
+        still = Displaced(np.zeros((1, 3)), np.zeros((3, 3)))
+        displaced = driven[holder.edge].displaced(point) if holder.edge in driven else still
         if holder.motion is not None:
             shift = holder.motion.course.at(time)
-    return placed.displacement[0] + shift, UP + np.atleast_2d(placed.director)[0]
+    return displaced.displacement[0] + shift, UP + np.atleast_2d(displaced.director)[0]
 
 
 def _holder_name(holder: Holder) -> str:

@@ -31,7 +31,7 @@ UP = np.array([0.0, 0.0, 1.0])
 _CROSS = np.cross(np.eye(3)[:, None], np.eye(3)[None]).swapaxes(1, 2).reshape(3, 9)  # [e]× of the axes
 
 
-class Placed(NamedTuple):
+class Displaced(NamedTuple):
     """Position of k points of an edge: displacement u (k, 3) [m], turn R − I (k, 3, 3), or one (3, 3)."""
 
     displacement: np.ndarray
@@ -57,14 +57,14 @@ class TurnedEdge:
         self._middle = _middle(support, supports, sheet)
         self._curvature, self._tilt = getattr(support, "curvature", 0.0), getattr(support, "tilt", 0.0)
 
-    def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
+    def displaced(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Displaced:
         """Return the position of plan points (k, 2) [m], which does not depend on the time."""
         s = points[:, self._axis] - self._middle
         half = 0.5 * load_factor * self._curvature * s
         # sin κs/κ − s and (1 − cos κs)/κ by sinc, which has no trouble at κ = 0
         across, rise = s * (np.sinc(2.0 * half / np.pi) - 1.0), s * np.sin(half) * np.sinc(half / np.pi)
         turn = _turn(load_factor * self._rotation(s))
-        return Placed(np.outer(across, self._along) + np.outer(rise, UP), turn)
+        return Displaced(np.outer(across, self._along) + np.outer(rise, UP), turn)
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return displacement [m] and change of director, (k, 3), to first order, at load factor 1."""
@@ -86,11 +86,11 @@ class MovedEdge:
         self._displacement = PiecewiseCurve(motion.time, motion.displacement or still)
         self._rotation = PiecewiseCurve(motion.time, motion.rotation or still)
 
-    def placed(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Placed:
+    def displaced(self, points: np.ndarray, load_factor: float = 1.0, time: float | None = None) -> Displaced:
         """Return the position of plan points (k, 2) [m] at a time [s], the last without one."""
         turn = _turn(load_factor * self._rotation.at(time))
         turned = (points - self._middle) @ turn[:, :2].T
-        return Placed(load_factor * self._displacement.at(time) + turned, turn)
+        return Displaced(load_factor * self._displacement.at(time) + turned, turn)
 
     def linear(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return displacement (k, 3) [m] and change of director (3,), to first order, at load factor 1."""

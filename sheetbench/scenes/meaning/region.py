@@ -122,7 +122,7 @@ def with_rims(scene: SceneFields) -> tuple[AnySupport, ...]:
         for number, part in enumerate(parts, start=1):
             shape = getattr(part, "shape", None) or getattr(part, "where", None)
             if shape is not None and (shape.rim or shape.hole):
-                raise ValueError(f"{kind} {number}: rim and hole are of a support's where")
+                raise ValueError(f"{kind} {number}: rim and hole are for a support's where only")
     supports: list[AnySupport] = []
     for number, support in enumerate(scene.supports, start=1):
         shape = None if isinstance(support, Point) else place(support)
@@ -176,9 +176,9 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
         touches = f"{where}: the sheet touches that edge at points at most; say where by a shape"
         yield edge and edge_length(scene, edge) <= least and touches
     for number, actuator in enumerate(scene.actuators, start=1):
-        whole = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
+        length = scene.sheet.lengths[EDGES[actuator.edge].along_axis]
         short = f"actuator {number}: the sheet does not reach all of edge {actuator.edge}, which it moves"
-        yield edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * whole and short
+        yield edge_length(scene, actuator.edge) < (1.0 - COINCIDENT) * length and short
     yield _motion_conflict(scene)
 
 

@@ -72,8 +72,8 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     for n, actuator in enumerate(scene.actuators, start=1):
         yield f"actuator {n}", _actuator(actuator, sheet)
     if scene.initial is not None:
-        gone = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
-        then = f"; load {gone} is let go then" if gone else ""
+        released = ", ".join(str(n) for n, load in enumerate(scene.loads, start=1) if load.hold)
+        then = f"; load {released} is let go then" if released else ""
         yield "start", f"motion starts from the equilibrium under all loads at t = 0{then}"
     if scene.springs is not None:
         yield "springs", "the lattice takes the scene's own constants instead of calibrated ones"
@@ -204,7 +204,7 @@ def _payload(payload: Mass, sheet: Sheet) -> str:
         return f"{1e3 * payload.mass:.3g} g at {_point(payload.at)} mm{_on_edges(payload.at, sheet)}"
     x, y, z = (1e7 * moment for moment in payload.inertia or (0.0, 0.0, 0.0))
     turning = f", moments of inertia {x:.3g} and {y:.3g} g·cm² about x and y" if x or y else ""
-    turning += ", of that about z, the sheet's normal, nothing is taken" if z else ""
+    turning += "; the one about z, the sheet's normal, is ignored" if z else ""
     return f"{1e3 * payload.mass:.3g} g, spread evenly{_in(payload.where)}{turning}"
 
 
@@ -222,9 +222,9 @@ def _support(support: AnySupport, sheet: Sheet) -> str:
     moved, inside = "", ""
     if support.motion is not None:
         far = max(support.motion.displacement, key=lambda moved: sum(part * part for part in moved))
-        how = {"smooth": "smoothly", "linear": "linearly between samples"}[support.motion.interpolation]
+        course = {"smooth": "smoothly", "linear": "linearly between samples"}[support.motion.interpolation]
         by = _vector([1e3 * part for part in far], "mm")
-        moved = f", moved {how} over {support.motion.time[-1]:g} s, farthest by {by}"
+        moved = f", moved {course} over {support.motion.time[-1]:g} s, farthest by {by}"
     if isinstance(support, Point):
         inside = f" at {_point(support.at)} mm"
     elif (shape := place(support)) is not None:

@@ -34,7 +34,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
         plan = shapely.Polygon(sheet.outline)
     elif sheet.mesh is not None:
         if cutouts:
-            raise ValueError("cutout 1: beside sheet.mesh; the holes of a sheet with a mesh are the mesh's")
+            raise ValueError("cutout 1: not with sheet.mesh, which has its own holes")
         plan = sheet.mesh.area
     neck = NECK * min(sheet.lengths)
     if (number := _first_idle(plan, cutouts)) is not None:

@@ -168,16 +168,16 @@ class SceneFields(Frozen, defer_build=True):
     @property
     def varied_by(self) -> str:
         """Return the keys by which the sheet is not uniform, "" if it is."""
-        own: dict[str, object] = {FIBRES: self.material.kind == "orthotropic"}
-        own |= {f"sheet.{name}": getattr(self.sheet, name) for name in ("taper_x", "taper_y")}
-        own |= {"layer": self.layers, "patch": any(patch.own for patch in self.patches)}
-        return ", ".join(word for word, given in own.items() if given)
+        features: dict[str, object] = {FIBRES: self.material.kind == "orthotropic"}
+        features |= {f"sheet.{name}": getattr(self.sheet, name) for name in ("taper_x", "taper_y")}
+        features |= {"layer": self.layers, "patch": any(patch.own for patch in self.patches)}
+        return ", ".join(word for word, given in features.items() if given)
 
     @property
     def natural_states(self) -> dict[str, Natural | Temperature]:
         """Return the natural states and the temperature by their names as parameters, without absent ones."""
-        own = {f"patch{n}.natural": patch.natural for n, patch in enumerate(self.patches, start=1)}
-        every = {"natural": self.natural, **own, "temperature": self.temperature}
+        of_patches = {f"patch{n}.natural": patch.natural for n, patch in enumerate(self.patches, start=1)}
+        every = {"natural": self.natural, **of_patches, "temperature": self.temperature}
         return {name: state for name, state in every.items() if state is not None}
 
     @property

@@ -16,7 +16,7 @@ Grid = tuple[int, int, int]
 LAYERS = 2
 MESH = 16  # the usual number of elements (`sheetbench.choices`), which stands for a sheet's own mesh
 DIGITS = 9  # of a number of cells, before it is made whole
-MASSES = 9  # along the shorter side, unless something else is requested
+DEFAULT_MASSES = 9  # along the shorter side, unless something else is requested
 
 
 def near_square(sheet: Sheet, cells: int) -> tuple[int, int]:
@@ -37,7 +37,7 @@ def elements_of(sheet: Sheet, elements: int) -> tuple[int, int]:
     return near_square(sheet, max(1, round(elements * sheet.mesh.across / MESH)))
 
 
-def grid_of(sheet: Sheet, masses: int | Sequence[int] = MASSES) -> Grid:
+def grid_of(sheet: Sheet, masses: int | Sequence[int] = DEFAULT_MASSES) -> Grid:
     """Return the grid that one, two or three numbers request.
 
     Raises BadInput below two masses a side or two layers, and for values that are not whole numbers.

@@ -88,5 +88,5 @@ def misfit(layers: tuple[Layer, ...], sheet: Sheet, material: Material) -> str:
     if abs(total - sheet.thickness) > ROUNDING * sheet.thickness:
         return f"layer: thicknesses add up to {total:g} m; the sheet's is {sheet.thickness:g} m"
     if material.law is not None:
-        return f"layer: material.law = '{material.law}': layers are of linear material"
+        return f"layer: material.law = '{material.law}': layers need a linear material"
     return ""

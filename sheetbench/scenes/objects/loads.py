@@ -5,7 +5,7 @@ acts in full from t = 0 on. Statics take the last factor.
 """
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -16,6 +16,7 @@ from sheetbench.scenes.objects.tables import Loading
 
 
 class _Load(Loading):
+    follows: ClassVar = False  # the sheet: a dead load keeps its direction
     hold: bool = Field(default=False, kw_only=True)
     """Whether the load acts only until a motion starts and is let go at t = 0: with [initial]
     shape = "static". For statics it is a load like others."""
@@ -62,6 +63,11 @@ class EdgeLoad(_Load):
         given = self.model_fields_set & {"force_per_length", "moment_per_length"}
         yield not given and "needs force_per_length [N/m] or moment_per_length [N·m/m]"
 
+    @property
+    def follows(self) -> bool:  # type: ignore[override]
+        """Whether there is a moment, which turns with the edge."""
+        return self.moment_per_length != 0.0
+
 
 class AreaLoad(_Load):
     """A dead force on the whole sheet, or on a part of it."""
@@ -81,6 +87,7 @@ class Pressure(_Load):
     """> 0 pushes along the sheet's current normal, at first +z; per current area."""
     where: Shape | None = None
     """The part that is loaded; the whole sheet unless given."""
+    follows: ClassVar = True
 
 
 AnyLoad = PointLoad | EdgeLoad | AreaLoad | Pressure

@@ -219,9 +219,9 @@ class Material(Fibres):
         if self.kind == "stiffness":
             missing = [key for key in ("membrane", "bending", "area_density") if key not in own]
             yield missing and f"kind = 'stiffness': {', '.join(missing)} missing"
-            yield self.law and f"law = '{self.law}': is of isotropic rubber; leave it out"
+            yield self.law and f"law = '{self.law}': for isotropic rubber only; leave it out"
         else:
-            yield own and f"{', '.join(own)}: is of kind = 'stiffness'; say so, or leave it out"
+            yield own and f"{', '.join(own)}: for kind = 'stiffness' only; give kind, or leave it out"
         keys, own = self._keys, self.given(CONSTANTS)
         for key in (key for key in own if key not in keys):
             laws = ", ".join(law for law, words in WORDS.items() if key in words.keys)
@@ -251,41 +251,42 @@ class Material(Fibres):
         least = energy.c20**2 / (3.0 * energy.c10) if energy.c20 < 0.0 < energy.c10 else 0.0
         pushes = energy.c10 < 0.0 or energy.c30 < least or (least and energy.c30 == least)
         above = f" and c3 above {least:g} Pa" * (self.law == "yeoh")
-        yield pushes and f"{given}: pulled far enough this rubber would push; c1 must be 0 or more{above}"
+        yield pushes and f"{given}: the stress turns negative at a large stretch; c1 must be 0 or more{above}"
         yield energy.c01 < 0.0 and (
-            f"{given}: pulled both ways beyond a stretch of {(-energy.c10 / energy.c01) ** 0.5:.3g} this "
-            "rubber would push; c2 must be 0 or more: take law = 'yeoh' or 'gent' for what stiffens"
+            f"{given}: the stress turns negative, pulled both ways beyond a stretch of "
+            f"{(-energy.c10 / energy.c01) ** 0.5:.3g}; c2 must be 0 or more: a rubber that stiffens has "
+            "law = 'yeoh' or 'gent'"
         )
 
     def _fibre_faults(self, own: dict[str, float]) -> Iterator[object]:
         """Yield reasons why the given constants of fibres are impossible."""
         if self.kind != "orthotropic":
             for key, value in own.items():
-                yield f"{key} = {value:g}: is of kind = 'orthotropic'; say so, or leave it out"
+                yield f"{key} = {value:g}: for kind = 'orthotropic' only; give kind, or leave it out"
             return
-        yield self.law and f"law = '{self.law}': is of isotropic rubber; an orthotropic material has none"
+        yield self.law and f"law = '{self.law}': for isotropic rubber only; an orthotropic material has none"
         yield impossible(own)
         for key, value in zip(("young", "poisson"), like_isotropic(own), strict=True):
             given, needed = getattr(self, key), ", ".join(NEEDED)
-            leave = f"{key} = {given:g}: of an orthotropic material {needed} are given; leave {key} out"
+            leave = f"{key} = {given:g}: an orthotropic material has {needed}; leave {key} out"
             yield abs(given - value) > 1e-9 * abs(value) and leave
 
     def _damping_faults(self) -> Iterator[object]:
         """Yield reasons why the damping of the material is given twice or incompletely."""
         if self.loss_factor is None:
-            yield from (f"{key}: is of a loss_factor; give one" for key in self.given(("frequency", "band")))
+            yield from (f"{key}: needs a loss_factor" for key in self.given(("frequency", "band")))
         else:
             for key in ("damping_time", "relaxation"):
-                both = f"loss_factor and {key}: each says how the material damps; give one"
+                both = f"loss_factor and {key}: each defines the damping; give one"
                 yield getattr(self, key) and both
             yield (self.frequency is None) == (self.band is None) and (
-                f"loss_factor = {self.loss_factor:g}: give frequency, where one damper a spring has it, "
-                "or band = [low, high], over which Maxwell branches keep it"
+                f"loss_factor = {self.loss_factor:g}: give frequency, for one damper a spring, or "
+                "band = [low, high], for Maxwell branches"
             )
         times, total = [branch.time for branch in self.relaxation], sum(one.share for one in self.relaxation)
         listed = ", ".join(f"{t:g}" for t in times)
         yield any(b <= a for a, b in pairwise(times)) and f"relaxation: times must increase, not {listed} s"
-        yield total >= 1.0 and f"relaxation: shares add up to {total:g}; the rest, below 1, is young's"
+        yield total >= 1.0 and f"relaxation: shares add up to {total:g}; they must stay below 1"
         _ = self.branches  # raises for a band that is none
 
     @property
@@ -346,8 +347,8 @@ class Material(Fibres):
 def limit_note(material: Material) -> str:
     """Return a sentence on the limit of Gent's law, for an answer that prescribed motions may rule out."""
     return (
-        f"the law 'gent' lets no load bring I1 - 3 to its limit = {material.limit:g}, as what is prescribed "
-        "here may do: move the supports less, or give a larger limit"
+        f"prescribed motions may bring I1 - 3 to limit = {material.limit:g} of the law 'gent': move the "
+        "supports less, or give a larger limit"
     )
 
 

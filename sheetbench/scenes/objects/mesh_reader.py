@@ -186,8 +186,8 @@ def _rings(lines: list[np.ndarray], unit: float) -> dict[str, np.ndarray]:
     if not len(faces):
         raise ValueError("its lines enclose nothing: their ends do not meet")
     sheet = max(faces, key=lambda face: shapely.Polygon(face.exterior).area)
-    whole = shapely.Polygon(sheet.exterior)
-    if any(not whole.covers(face) for face in faces):
+    filled = shapely.Polygon(sheet.exterior)
+    if any(not filled.covers(face) for face in faces):
         raise ValueError("it encloses several parts; a sheet is one piece with holes")
     rings = [np.array(ring.coords)[:-1] for ring in (sheet.exterior, *sheet.interiors)]
     return {

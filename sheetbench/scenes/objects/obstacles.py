@@ -15,7 +15,7 @@ from sheetbench.scenes.objects.quantities import Frozen, Length, NonNegative, Un
 from sheetbench.scenes.objects.supports import Motion
 
 SLIP_SPEED = 1e-3  # m/s, v₀ of the friction −μ p v/√(v² + v₀²)
-CREEPS = f"friction is regular below {1e3 * SLIP_SPEED:g} mm/s, so that what should stick creeps"
+CREEPS = f"friction is regularised below {1e3 * SLIP_SPEED:g} mm/s, so that sticking points creep"
 TOUCH = 1e-9  # δ₀, of the thickness: how far off a sheet touches, or an obstacle would not hold one that lies
 
 

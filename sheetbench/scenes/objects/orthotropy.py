@@ -72,16 +72,16 @@ class Ply(NamedTuple):
     density: Any
 
 
-def in_own_axes(own: Mapping[str, Any]) -> dict[str, Any]:
+def in_own_axes(given: Mapping[str, Any]) -> dict[str, Any]:
     """Return the constants of a ply from the keys of a material, patch or layer. A missing constant of an
     orthotropic material is taken from another axis; `young` and `poisson` are the constants of an isotropic
     material."""
-    constants = {key: value for key, value in own.items() if key in Ply._fields}
-    if "young_1" in own:
-        shear, poisson = dict.fromkeys(("shear_13", "shear_23"), own["shear_12"]), own["poisson_12"]
-        usual = {"young_3": own["young_2"], **shear, **dict.fromkeys(THROUGH, poisson)}
-    elif "young" in own:
-        young, poisson = own["young"], own["poisson"]
+    constants = {key: value for key, value in given.items() if key in Ply._fields}
+    if "young_1" in given:
+        shear, poisson = dict.fromkeys(("shear_13", "shear_23"), given["shear_12"]), given["poisson_12"]
+        usual = {"young_3": given["young_2"], **shear, **dict.fromkeys(THROUGH, poisson)}
+    elif "young" in given:
+        young, poisson = given["young"], given["poisson"]
         usual = dict.fromkeys(MODULI[:3], young) | dict.fromkeys(("poisson_12", *THROUGH), poisson)
         usual |= dict.fromkeys(MODULI[3:], young / (2.0 * (1.0 + poisson)))
     else:

@@ -33,7 +33,7 @@ class Patch(Frozen):
 
     def _faults(self) -> Iterator[object]:
         yield not self.own and not self.natural and f"needs one of {', '.join((*CONSTANTS, 'natural'))}"
-        whole = "natural.pretension: is of a whole sheet; give strain"
+        whole = "natural.pretension: for a whole sheet only; give strain"
         yield self.natural and self.natural.pretension and whole
 
     @property
@@ -62,7 +62,7 @@ def mismatched(patches: tuple[Patch, ...], material: Material) -> str:
     """Return the reason why a patch's constants do not suit the sheet's kind of material, "" if all do."""
     for number, patch in enumerate(patches, start=1):
         if material.kind == "isotropic" and patch.angle is not None:
-            return f"patch {number}.angle = {patch.angle:g}: is of a material of kind = 'orthotropic'"
+            return f"patch {number}.angle = {patch.angle:g}: for a material of kind = 'orthotropic' only"
         if material.kind == "orthotropic" and (patch.young is None) != (patch.poisson is None):
             given = "poisson" if patch.young is None else "young"
             return (

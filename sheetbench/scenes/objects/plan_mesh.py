@@ -114,12 +114,12 @@ def read_file(path: Path, formats: Mapping[str, str] = FORMATS) -> tuple[np.ndar
     # -P: the program does not import modules of its folder
     command = [sys.executable, "-P", mesh_reader.__file__, str(path), kind]
     seconds = SECONDS + PER_MB * size // 2**20
-    ended = run(command, b"", seconds, MEMORY_MB, most=LARGEST, variables=ONE_THREAD)
-    if ended.code == mesh_reader.REFUSED and not ended.stopped:
-        raise ValueError(ended.complaint)
-    if ended.fault:
-        raise ValueError(f"it cannot be read: {ended.fault}")
-    with np.load(BytesIO(ended.answer)) as archive:
+    process = run(command, b"", seconds, MEMORY_MB, most=LARGEST, variables=ONE_THREAD)
+    if process.code == mesh_reader.REFUSED and not process.stopped:
+        raise ValueError(process.complaint)
+    if process.fault:
+        raise ValueError(f"it cannot be read: {process.fault}")
+    with np.load(BytesIO(process.answer)) as archive:
         arrays = dict(archive)
     return arrays.pop("points"), arrays
 

@@ -95,7 +95,7 @@ class Branches(NamedTuple):
         roots = np.linalg.eigvals(rates)
         return complex(roots[np.lexsort((roots.real, roots.imag))[-1]])
 
-    def begun(self, weight: np.ndarray, constant: np.ndarray) -> BranchStep:
+    def stepped(self, weight: np.ndarray, constant: np.ndarray) -> BranchStep:
         """Return a step or stage of weights (b,) and constants (b, 2, m)."""
         stiffness = np.array(self.stiffness)
         gain, past = 1.0 + float(stiffness @ weight), np.tensordot(stiffness, constant[:, 0], 1)
@@ -105,7 +105,9 @@ class Branches(NamedTuple):
         """Return the step from a memory to `ahead` [s] later."""
         x = ahead / np.array(self.times)
         weight = -np.expm1(-x) / x if ahead > 0.0 else np.ones_like(x)
-        return self.begun(weight, np.exp(-x)[:, None, None] * memory[1:] - weight[:, None, None] * memory[0])
+        return self.stepped(
+            weight, np.exp(-x)[:, None, None] * memory[1:] - weight[:, None, None] * memory[0]
+        )
 
     def at_rest(self, x: np.ndarray) -> np.ndarray:
         """Return the memory at X (2, m) after full relaxation."""

@@ -105,7 +105,7 @@ class Sheet(Frozen):
             yield not min(ends) <= self.thickness <= max(ends) and f"{given}: {beside}"
             yield max(ends) > shorter and f"{given} is more than the shorter side"
         for key in self.given(("mesh_scale", "mesh_shift")):
-            yield f"{key}: is of a file of mesh or outline; what is given in numbers is in metres already"
+            yield f"{key}: for a file of mesh or outline only; numbers are in metres"
         drawn = {"outline": self.outline, "mesh": self.mesh and self.mesh.points}
         one = "outline and mesh: give one of them; the outline of a mesh is its boundary"
         yield all(drawn.values()) and one

@@ -103,7 +103,7 @@ class Hinged(_Support):
 
     def _faults(self) -> Iterator[object]:
         yield from super()._faults()
-        yield self.twist == "held" and self.where and 'twist = "held" is of an edge; leave twist or where out'
+        yield self.twist == "held" and self.where and 'twist = "held" is for edges; leave twist or where out'
 
 
 class Held(_Support):

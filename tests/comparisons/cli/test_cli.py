@@ -14,7 +14,7 @@ from commands import one_line, run
 from terminals import Terminal
 
 from comparisons.cli import interruption, startup, study
-from comparisons.sweep import here as table
+from comparisons.sweep import in_process as table
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.choices import VERBS
@@ -200,7 +200,7 @@ ROOT = Path(__file__).parents[3]
 def test_studies_are_listed_and_each_has_a_help_page(capsys):
     assert run("study") == 0
     listed = capsys.readouterr().out
-    for name in (*study.INSTALLED, *STUDIES):
+    for name in STUDIES:
         assert f"\n{name} " in listed
         assert run("study", name, "--help") == 0
         assert f"sheetbench study {name}" in capsys.readouterr().out
@@ -209,17 +209,13 @@ def test_studies_are_listed_and_each_has_a_help_page(capsys):
 def test_every_study_is_in_the_documentation_and_has_a_make_target():
     page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
     targets = (ROOT / "studies" / "Makefile").read_text(encoding="utf-8")
-    for name in (*study.INSTALLED, *STUDIES):
+    for name in STUDIES:
         assert f"| `{name}` |" in page and f"sheetbench study {name}" in targets
 
 
-def test_an_installed_package_has_the_reproduction_and_names_the_way_to_the_others(
-    tmp_path, monkeypatch, capsys
-):
+@pytest.mark.parametrize("name", [(), ("promises",)])
+def test_an_installed_package_names_the_way_to_the_studies(name, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(study, "CHECKOUT", tmp_path)
-    assert run("study", "promises") == 2
-    assert "choose from reproduction; others need a clone of the repository" in one_line(capsys)
-    assert run("study") == 0
-    listed = capsys.readouterr().out
-    assert "reproduction " in listed and "promises" not in listed
-    assert run("study", "reproduction", "--part", "nearest", "--json") == 0
+    assert run("study", *name) == 2
+    assert "study: studies are not installed; in a clone of the repository run" in one_line(capsys)
+    assert run("study", "--help") == 0

@@ -264,7 +264,7 @@ def test_an_option_has_one_name_and_one_default_in_command_and_function():
             assert usual is Parameter.empty or usual in (options[name].default, None, False), name
 
 
-@pytest.mark.parametrize("verb", [*VERBS, "reproduction", *STUDIES])
+@pytest.mark.parametrize("verb", [*VERBS, *STUDIES])
 def test_every_list_takes_commas_and_repetition(verb, tmp_path):
     """In Python lists; `--elements 8x4` too, and no help text has the same default twice."""
     module = import_module(f"comparisons.cli.{verb}") if verb in VERBS else module_of(verb)
@@ -316,7 +316,7 @@ def test_every_name_is_there_and_described():
     assert lumped.CALIBRATIONS is choices.CALIBRATIONS
     assert set(lumped.INTEGRATORS) == set(choices.INTEGRATORS)
     given, more = get_args(lumped.Inertia)
-    assert {*get_args(given), *get_args(more)} == set(choices.MASSES)
+    assert {*get_args(given), *get_args(more)} == set(choices.MASS_DISTRIBUTIONS)
     assert list(fem_reference.MODELS) == list(choices.REFERENCES)
     assert set(MAKERS) == set(choices.CALIBRATIONS)
     for name, make in MAKERS.items():
@@ -332,7 +332,7 @@ def test_the_usual_choices_are_those_of_the_functions():
 NAMES = {
     "calibration": choices.CALIBRATIONS,
     "reference": choices.REFERENCES,
-    "masses": choices.MASSES,
+    "masses": choices.MASS_DISTRIBUTIONS,
     "integrator": choices.INTEGRATORS,
 }
 

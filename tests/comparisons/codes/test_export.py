@@ -94,7 +94,7 @@ def test_an_exported_lattice_carries_the_payload(tmp_path):
     assert (found.dead - bare.dead).sum(axis=0) == pytest.approx([0.0, 0.0, -9.81 * 0.05])
     export(tmp_path, laden, own)
     assert sum(float(row["mass"]) for row in table(tmp_path / "nodes.csv")) == pytest.approx(found.mass.sum())
-    with pytest.raises(BadInput, match=r"mass.inertia: an exported lattice has masses alone"):
+    with pytest.raises(BadInput, match=r"mass.inertia: an exported lattice has point masses only"):
         part = {"circle": {"centre": (0.1, 0.1), "radius": 0.05}}
         lumped.describe(scene.replace(masses=({"where": part, "mass": 0.1, "inertia": (1e-6,) * 3},)), own)
 

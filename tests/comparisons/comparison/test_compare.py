@@ -89,7 +89,7 @@ def test_a_sentence_says_how_far_the_lattice_is_from_the_sheet_as_described(tmp_
     assert numbers == pytest.approx([100.0 * one for one in wanted], rel=0.051)
     assert re.fullmatch(
         r"The lattice is [\d.]+ % off the shell, and the shell within [\d.]+ % of the sheet as described "
-        r"\([\d.]+ % if the clamp also holds the thickness\); E is not in this\.",
+        r"\([\d.]+ % if the clamp also holds the thickness\); errors of E are not included\.",
         both.sentence,
     )
     report = both.report()
@@ -101,7 +101,7 @@ def test_a_sentence_says_how_far_the_lattice_is_from_the_sheet_as_described(tmp_
     ):
         assert said in compare(SCENE, Lattice(5), elements=4, **other).sentence
     fibres = scenes.load("fabric-square")
-    assert "its constants are not in this" in compare(fibres, Lattice(5), elements=3).sentence
+    assert "errors of its constants are not included" in compare(fibres, Lattice(5), elements=3).sentence
     partial = fake_solutions.solution(SCENE, "lumped", status=Status.DIVERGED, load_factor=0.4)
     assert not Comparison(SCENE, (partial, fake_solutions.solution(SCENE, "shell"))).sentence
 

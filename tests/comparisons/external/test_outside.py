@@ -18,7 +18,7 @@ from comparisons.external.answer import ExternalCode
 from comparisons.models import solve as solvers
 from comparisons.models.spec import parse
 from comparisons.sweep import task
-from comparisons.sweep.solved import Ask
+from comparisons.sweep.solved import Request
 from sheetbench import face, scenes
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
@@ -111,7 +111,7 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
     name = f"{file}:Strip"
 
     def key():
-        return Ask(SCENE, parse(name)).task.key
+        return Request(SCENE, parse(name)).task.key
 
     first = key()
     (tmp_path / "elsewhere.py").write_text("x = 2\n")

@@ -57,6 +57,7 @@ def test_where_an_obstacle_is_and_how_thick_are_found_again(name, true):
     assert found.converged and found.unknowns[name].value == pytest.approx(true, rel=1e-6)
 
 
+@pytest.mark.nightly
 def test_the_interval_holds_the_true_value_in_17_of_20_draws():
     """1 % of the largest displacement as noise in every component; the search starts up to 65 % away."""
     rng = np.random.default_rng(11)
@@ -105,7 +106,7 @@ def test_a_clamps_tilt_is_told_from_young():
     assert found.unknowns["young"].value == pytest.approx(TRUE, rel=1e-6)
     assert found.unknowns["tilt_x0"].value == pytest.approx(0.03, abs=1e-7)
     assert found.unknowns["tilt_x0"].unit == "rad"
-    assert any("cannot tell young from tilt_x0 (correlation +0.98" in said for said in found.warnings)
+    assert any("cannot distinguish young from tilt_x0 (correlation +0.98" in said for said in found.warnings)
 
 
 def test_a_scanned_surface(tmp_path):
@@ -275,7 +276,7 @@ def test_what_the_data_do_not_determine_is_no_result():
     assert [*found.unknowns] == ["young", "density"]
     assert all(row[2:6] == (None,) * 4 for row in found.report().tables[0].rows)
     assert "changed together" in repr(found)
-    assert any("do not see a combination of young, density" in said for said in found.warnings)
+    assert any("do not determine a combination of young, density" in said for said in found.warnings)
     young, density = (one.value for one in found.unknowns.values())
     assert young / density == pytest.approx(SCENE.material.young / SCENE.material.density, rel=0.01)
     assert 0.1 < density / SCENE.material.density < 10.0  # it does not wander along what nothing holds
@@ -313,6 +314,7 @@ def test_the_finer_lattice_of_a_drawn_sheet_has_lines_on_shapes_too():
 DAMPED = CANTILEVER.replace(loss_factor=0.12, frequency=3.0)
 
 
+@pytest.mark.nightly
 def test_a_reference_follows_a_measured_motion():
     """Within what a hundred steps a period leave, against finer ones."""
     run = fem_reference.simulate(DAMPED, "shell", 0.15, elements=1, step=1e-3)

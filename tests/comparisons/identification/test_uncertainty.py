@@ -48,6 +48,7 @@ def test_one_number_has_a_value_and_with_its_uncertainty_an_interval():
         identify(guess, one, uncertainty=0.0)
 
 
+@pytest.mark.nightly  # forty fits
 def test_rows_count_by_their_standard_deviations():
     """Half of the rows ten times as accurate: intervals hold, and are narrower than without weights."""
     rng, truth = np.random.default_rng(5), solved(with_material(SCENE, young=TRUE))

@@ -227,7 +227,7 @@ def test_nothing_is_said_where_a_ball_touches_within_a_cell(kind, area, silent):
 @pytest.mark.parametrize(
     ("finer", "words"),
     [
-        (-0.01, "are the same but for rounding"),
+        (-0.01, "are equal but for rounding"),
         (0.01, "differ by 200 %, too much to extrapolate from"),
         (-0.010001, "differ by 0.01 %, less than the law of strain may change them at this stretch"),
         (-0.0101, "about 1.8 % (estimated"),  # (0.0001/0.0101)/(1 − 1/2.25)

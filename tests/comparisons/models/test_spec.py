@@ -55,7 +55,7 @@ def test_a_reference_is_a_spec_or_its_name_and_keywords():
 @pytest.mark.parametrize(("ask", "said"), [
     (lambda scene: sb.modes(scene, sb.Lattice(linear=True)), "linear: no effect on modes"),
     (lambda scene: sb.simulate(scene, lattice=sb.Lattice(masses="gregory")), "masses: no effect on motion"),
-    (lambda scene: sb.tradeoff(scene, tolerance=0.1, lattice=sb.Lattice(9)), "grid = 9: is chosen here"),
+    (lambda scene: sb.tradeoff(scene, tolerance=0.1, lattice=sb.Lattice(9)), "grid = 9: is chosen by"),
     (lambda scene: sb.solve(scene, sb.External("nosuch")), "model = 'nosuch': unknown"),
     (lambda scene: sb.solve(scene, "shell", k=3.0), "shell: no option 'k'; it has elements, graded"),
 ])  # fmt: skip

@@ -215,7 +215,7 @@ def test_what_has_no_buckling_load_is_refused_by_name(change, message):
                 lumped.buckling(scene, lumped.calibrate(scene.sheet, scene.material, 5))
             else:
                 fem_reference.buckling(scene, model, 2)
-    with pytest.raises(BadInput, match="of shell and solid; the plate's strains are linear"):
+    with pytest.raises(BadInput, match="its strains are linear; choose shell or solid"):
         fem_reference.buckling(square(), "plate", 2)
 
 
@@ -233,7 +233,7 @@ def test_the_verb_pairs_shapes(tmp_path, capsys):
 
 @pytest.mark.parametrize("case", [square, column])
 def test_the_error_of_a_buckling_load_is_foretold_by_a_finer_grid(case):
-    """To a quarter; where springs do not tend to the sheet a note says that there is none."""
+    """To a quarter; where springs do not converge to the sheet a note says that there is none."""
     scene = case()
     found = spectra(scene, Lattice(9), count=3, elements=8 if case is square else (40, 4), buckling=True)
     true = [pair.relative for pair in found.buckling_pairs]
@@ -241,5 +241,5 @@ def test_the_error_of_a_buckling_load_is_foretold_by_a_finer_grid(case):
     table = next(table for table in found.tables() if table.name == "buckling")
     assert [column.name for column in table.columns][1:3] == ["lumped", "est."]
     uniform = spectra(scene, Lattice(5, "uniform"), count=1, elements=2, buckling=True)
-    assert "do not tend to the sheet" in uniform.document()["buckling"]["no_estimate"]
+    assert "do not converge to the sheet" in uniform.document()["buckling"]["no_estimate"]
     assert any("no estimate of its grid error" in note for note in uniform.notes())

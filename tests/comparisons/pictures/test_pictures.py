@@ -21,7 +21,7 @@ from comparisons.pictures import offscreen
 from comparisons.pictures.labels import place_labels
 from comparisons.pictures.plan import edge_ends, held_lines, load_arrows, plan_lines, plan_mesh, rims
 from comparisons.pictures.stage import Stage
-from comparisons.sweep.solved import Ask
+from comparisons.sweep.solved import Request
 from comparisons.tradeoff import figure as trading
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
@@ -115,7 +115,7 @@ def composed():
     moved = {"tip": np.outer(time, [0.0, 0.0, 1e-3])}
     rows = [
         TradeoffRow(
-            Ask(SCENE, Lattice((n, n, 2), "consistent")), "converged", error=0.1 / n,
+            Request(SCENE, Lattice((n, n, 2), "consistent")), "converged", error=0.1 / n,
             row={"cost": {"samples": [1e-3 * n]}},
         )
         for n in (3, 5, 9)

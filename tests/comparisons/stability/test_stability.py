@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from campaigns import Here
+from campaigns import Serial
 
 import lumped
 from comparisons.models.resolve import resolve
@@ -20,7 +20,7 @@ SEED, SETTLING = load("two-edges-clamped"), load("two-edges-settling")
 
 
 def varied(store, *names, scene=SEED, grid=5):
-    return stability(scene, store, varied=names, lattice=Lattice(grid), elements=4, pool=Here)
+    return stability(scene, store, varied=names, lattice=Lattice(grid), elements=4, pool=Serial)
 
 
 @pytest.mark.parametrize(("name", "factor"), [("load", 3.0), ("slenderness", 0.1), ("young", 100.0)])
@@ -73,6 +73,7 @@ def test_a_fault_of_the_program_is_no_verdict_on_a_model(store, monkeypatch):
     assert all(one["facecolor"] != "#ffffff" or one["hatch"] for one in looks)  # white: nothing was run
 
 
+@pytest.mark.nightly
 def test_the_largest_stable_steps_are_those_measured(store, monkeypatch):
     """Undamped to a hundredth of it; damped, the computed one is no larger than the measured, by as much."""
     monkeypatch.setattr(extremes, "DAMPING", (0.0,))

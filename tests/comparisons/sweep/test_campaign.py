@@ -12,7 +12,7 @@ from threading import Thread
 
 import campaign_tasks
 import pytest
-from campaigns import Here, alive, interrupt_when, rows_in, task, wait_for
+from campaigns import Serial, alive, interrupt_when, rows_in, task, wait_for
 from limits import at_most
 
 from comparisons.sweep import campaign as runs_campaign
@@ -65,35 +65,37 @@ def test_other_code_in_the_worker_is_a_failure_and_not_an_answer():
 
 
 def test_a_run_that_fails_is_a_row_and_a_fault_not_filed_as_the_users_mistake(store):
-    found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store, pool=Here)
+    found = carry_out([task(name) for name in ("refuse", "fail", "not_finite")], store, pool=Serial)
     refusal, fault = "x = −1: must be positive", "ZeroDivisionError: by nothing"
     ends = [("refused", refusal), ("failed", fault), ("done", found[2].message)]
     assert [(outcome.status, outcome.message) for outcome in found] == ends
     assert found[2].row == {"value": None}
-    found = carry_out([task("stumble", over=over) for over in ("value", "type", "matrix")], store, pool=Here)
+    found = carry_out(
+        [task("stumble", over=over) for over in ("value", "type", "matrix")], store, pool=Serial
+    )
     for outcome, kind in zip(found, ("ValueError", "TypeError", "LinAlgError"), strict=True):
         assert outcome.status == "failed" and outcome.message.startswith(f"{kind}: ")
         assert "in stumble" in outcome.row["traceback"]
 
 
 def test_what_has_not_enough_memory_is_lost_and_no_fault(store):
-    (found,) = carry_out([task("stumble", over="memory")], store, pool=Here)
+    (found,) = carry_out([task("stumble", over="memory")], store, pool=Serial)
     assert (found.status, found.row) == ("lost", {}) and found.message.startswith("not enough memory: ")
 
 
 def test_an_interrupt_within_compiled_code_is_no_outcome(store):
     with pytest.raises(KeyboardInterrupt):
-        carry_out([task("interrupted")], store, pool=Here)
+        carry_out([task("interrupted")], store, pool=Serial)
     assert not rows_in(store.path)
 
 
 def test_what_failed_is_done_again_only_when_asked(store, tmp_path):
     runs = [task("square", x=1.0), task("needs", path=str(tmp_path / "file"))]
-    first = carry_out(runs, store, pool=Here)
+    first = carry_out(runs, store, pool=Serial)
     assert [outcome.status for outcome in first] == ["done", "failed"]
     (tmp_path / "file").touch()
     assert carry_out(runs, store, pool=pytest.fail) == first
-    again = carry_out(runs, store, pool=Here, retry=True)
+    again = carry_out(runs, store, pool=Serial, retry=True)
     assert again[0] == first[0] and again[1].status == "done"
 
 
@@ -173,7 +175,7 @@ DAMAGE: dict[str, tuple[Callable[[Path], object], str]] = {
     "link": (lambda path: (path.rename(path.with_name("other")), path.symlink_to("other")), CANNOT),
     "schema": (
         lambda path: (path.unlink(), changed(path, "create table runs (key text, something text)")),
-        "is of another program or version",
+        "belongs to another program or version",
     ),
     "broken row": (lambda path: changed(path, "update runs set row = ?", '{"square": '), ROW),
     "empty row": (lambda path: changed(path, "update runs set row = ?", "{}"), ROW),
@@ -192,7 +194,7 @@ def test_a_damaged_file_is_refused_in_a_line_with_the_remedy_and_left_alone(tmp_
     spoil, said = DAMAGE[damage]
     spoil(path)
     before = path.read_bytes() if path.is_file() else None
-    refused = pytest.raises(BadInput, match=f"{path}: .*({said}).*(move|stands there)")
+    refused = pytest.raises(BadInput, match=f"{path}: .*({said}).*(move|is there)")
     with refused, campaign(tmp_path) as store:
         carry_out(runs, store, pool=pytest.fail)
     assert (path.read_bytes() if path.is_file() else None) == before
@@ -205,7 +207,7 @@ def test_a_file_that_another_program_uses_is_refused(tmp_path, monkeypatch):
         pass
     other = connect(tmp_path / FILE)
     other.execute("begin exclusive")
-    refused = pytest.raises(BadInput, match=r"database is locked; .* no other program at it")
+    refused = pytest.raises(BadInput, match=r"database is locked; .* no other program's lock")
     with refused, campaign(tmp_path):
         pass
     other.close()
@@ -214,13 +216,13 @@ def test_a_file_that_another_program_uses_is_refused(tmp_path, monkeypatch):
 def test_a_full_disk_ends_a_campaign_in_a_line_and_loses_nothing(store):
     """A limit on file sizes stands for the disk."""
     runs = [task("ballast", x=x, size=20_000) for x in range(4)]
-    carry_out(runs[:1], store, pool=Here)
+    carry_out(runs[:1], store, pool=Serial)
     refused = pytest.raises(BadInput, match=f"{store.path}: .*.* with room on the disk")
     with at_most(50_000), refused:
-        carry_out(runs, store, pool=Here)
+        carry_out(runs, store, pool=Serial)
     kept = rows_in(store.path)
     assert 1 <= len(kept) < 4
-    found = carry_out(runs, store, pool=Here)
+    found = carry_out(runs, store, pool=Serial)
     assert [outcome.row["x"] for outcome in found] == [0, 1, 2, 3]
     after = rows_in(store.path)
     assert {key: after[key] for key in kept} == kept
@@ -230,7 +232,7 @@ def test_two_campaigns_at_one_folder_do_not_meet(tmp_path):
     with campaign(tmp_path) as store:
         with pytest.raises(BadInput, match=f"{tmp_path}: another process writes here"):
             campaign(tmp_path).__enter__()
-        carry_out([task("square", x=1.0)], store, pool=Here)
+        carry_out([task("square", x=1.0)], store, pool=Serial)
     with campaign(tmp_path) as store:
         assert carry_out([task("square", x=1.0)], store, pool=pytest.fail)[0].status == "done"
 

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from campaigns import Here, rows_in, wait_for
+from campaigns import Serial, rows_in, wait_for
 
 import sheetbench as sb
 from comparisons.comparison.comparison import compare
@@ -79,7 +79,7 @@ def test_what_cannot_be_varied_is_refused(texts, refusal):
 def test_a_row_is_what_compare_answers_of_the_variant(store):
     """Error, field error and probes to the last digit; a variant without an answer costs its row alone."""
     models = {"models": [Lattice(3), Elements("plate", 2)], "reference": Elements("shell", 2)}
-    found = vary(SEED, ["sheet.thickness=3mm,5mm"], store, pool=Here, **models)
+    found = vary(SEED, ["sheet.thickness=3mm,5mm"], store, pool=Serial, **models)
     rows = json.loads(to_json(found.document()))["rows"]
     assert [(row["varied"]["sheet.thickness"], row["model"]) for row in rows] == [
         (h, model) for h in (3e-3, 5e-3) for model in ("shell", "lumped", "plate")
@@ -92,11 +92,11 @@ def test_a_row_is_what_compare_answers_of_the_variant(store):
     assert list(frame["sheet.thickness [m]"]) == [3e-3] * 3 + [5e-3] * 3
     assert frame["P4 uz [m]"][4] == rows[4]["probes"]["P4"][2]
     assert "at sheet.thickness = 3 mm" in found.result()
-    heavy = vary(SEED, ["gravity.acceleration.3=-9.81,-1e5"], store, pool=Here, **models)
+    heavy = vary(SEED, ["gravity.acceleration.3=-9.81,-1e5"], store, pool=Serial, **models)
     assert not heavy.succeeded and len(heavy.rows) == 6 and heavy.rows[0].stable
     assert any("acceleration.3 = −100000 m/s²" in one and "lumped" in one for one in heavy.complaints())
     alone = vary(
-        SEED, ["support1.kind=clamped,hinged"], store, models=[Lattice(3)], reference=None, pool=Here
+        SEED, ["support1.kind=clamped,hinged"], store, models=[Lattice(3)], reference=None, pool=Serial
     )
     assert alone.reference == "" and [row.error for row in alone.rows] == [None, None]
     for one in (found, heavy, alone):
@@ -109,7 +109,9 @@ def test_the_function_takes_a_mapping_of_values():
     given = {"sheet.thickness": thickness, "support.1.kind": "clamped"}
     found = sb.sweep(SEED, given, grid=3, reference="", workers=1)
     assert [row.varied["sheet.thickness"] for row in found.rows] == thickness.tolist()
-    assert [row.ask.scene for row in found.rows] == [SEED.replace(thickness=h) for h in thickness.tolist()]
+    assert [row.request.scene for row in found.rows] == [
+        SEED.replace(thickness=h) for h in thickness.tolist()
+    ]
 
 
 @pytest.mark.nightly

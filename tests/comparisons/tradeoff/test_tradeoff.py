@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from campaigns import Here
+from campaigns import Serial
 from commands import run
 from verbs import run_here
 
@@ -63,8 +63,8 @@ def test_a_reference_has_a_bar_where_its_finest_answer_can_be_used(monkeypatch, 
         known = {"probes": {"P": u}, "columns": {"field": [u]}, "load_factor": 1.0}
         return Solved(ask, status, row=known | {"settings": ask.spec.settings})
 
-    def solved(asks, *_, **__):
-        return [row(ask, "converged" if n else finest) for n, ask in enumerate(asks)]
+    def solved(requests, *_, **__):
+        return [row(ask, "converged" if n else finest) for n, ask in enumerate(requests)]
 
     monkeypatch.setattr(statics, "sweep", solved)
     found = statics.tradeoff(
@@ -100,7 +100,7 @@ def test_the_trade_of_a_motion_finds_the_order_of_its_integrators(store):
         scenes.load("two-edges-settling"), 0.6, store,
         lattices=[Lattice(grid=(3, 3, 2))], others=[Elements("shell", 1), Elements("plate", 1)],
         reference=Elements("shell", 2), integrators=("generalised-alpha", "midpoint"),
-        divisions=(40, 80, 160), fine=800, pool=Here,
+        divisions=(40, 80, 160), fine=800, pool=Serial,
     )  # fmt: skip
     of_lattice, others = found.rows[:6], found.rows[6:]
     assert [row.model for row in others] == 2 * ["shell"] + 2 * ["plate"]

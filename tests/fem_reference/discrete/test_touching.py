@@ -144,7 +144,7 @@ def test_ball_between_nodes_is_felt(elements, rise, force, within):
 
 
 @pytest.mark.sweep(2)
-@pytest.mark.parametrize("elements", [(8, 1), (9, 3), (10, 1), (11, 2), (16, 3), (20, 4), (25, 5)])
+@pytest.mark.parametrize("elements", [(8, 1), (16, 3), (9, 3), (25, 5), (10, 1), (20, 4), (11, 2)])
 def test_cradle_is_stable_and_rocks_wherever_elements_end(elements):
     """With the kinks of elements it rocked up to 2.2 times too fast."""
     scene, options = curled_sheet(), {"elements": elements, "graded": False}
@@ -170,6 +170,7 @@ def test_both_integrals_over_patches_agree():
     assert (other[0] > 0.0).sum() > 30
 
 
+@pytest.mark.nightly
 def test_shell_over_a_ball_folds_one_way():
     found = fem_reference.solve(draped_quarter(), "shell", elements=6, branch="buckled")
     assert found.status is Status.CONVERGED
@@ -196,4 +197,4 @@ def test_friction_that_cannot_stick_is_said():
     floor = Plane(position=(0.0, 0.0, -0.011), friction=0.3)
     scene = laid_strip(0.05, obstacles=(floor,)).replace(length_x=0.2, thickness=0.002, young=5e6)
     history = fem_reference.simulate(scene, "shell", 2e-3, elements=(2, 1), every=1e-3)
-    assert "should stick creeps" in history.message
+    assert "sticking points creep" in history.message

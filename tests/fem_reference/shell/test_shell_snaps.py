@@ -26,7 +26,7 @@ from sheetbench.numerics.continuation.pseudo_transient import relax
 from sheetbench.numerics.continuation.trace import trace_path
 from sheetbench.numerics.direct import DirectSolver, SingularMatrixError
 from sheetbench.scenes import Chain, Curved, Hinged
-from sheetbench.scenes.meaning.kinematics import Placed
+from sheetbench.scenes.meaning.kinematics import Displaced
 from studies.stability import scenes as stability_scenes
 
 SIDE, WIDTH, THICKNESS, YOUNG = 1.0, 0.1, 0.002, 1e7
@@ -70,10 +70,10 @@ class Shortening:
 
     shorter: float
 
-    def placed(self, points, load_factor, time=None):
+    def displaced(self, points, load_factor, time=None):
         out = np.zeros((len(points), 3))
         out[:, 0] = -0.5 * self.shorter * np.sign(points[:, 0] - SIDE / 2)
-        return Placed(out, np.zeros((3, 3)))
+        return Displaced(out, np.zeros((3, 3)))
 
 
 class Strip(Static):
@@ -173,7 +173,7 @@ def test_a_compressed_strip_leaves_the_saddle_for_the_buckled_state():
 def test_a_saddle_that_no_push_leaves_is_told(monkeypatch):
     monkeypatch.setattr(pseudo_transient._Creep, "_push", lambda creep, state, step: state)
     flat = strip(shorter=1.5 * np.pi**2 * THICKNESS**2 / (12.0 * SIDE))
-    with pytest.raises(LoadStepFailed, match="does not leave it"):
+    with pytest.raises(LoadStepFailed, match="ends at a saddle point"):
         relax(Path(flat, DirectSolver(), flat.start), 0.0)
 
 

@@ -1,4 +1,4 @@
-"""What is thrown at the program: scenes, command lines and measured files, sound ones and mutated ones.
+"""Random inputs of the program: scenes, command lines and measured files, valid ones and mutated ones.
 
 A scene is drawn from a grammar of sound ones, or is one of the catalogue; a mutation then drops, doubles,
 swaps, renames or replaces values anywhere in it, and another breaks its text.
@@ -52,7 +52,7 @@ def numbers(least: float, most: float) -> st.SearchStrategy[float]:
 
 @st.composite
 def sound(draw: st.DrawFn) -> dict[str, Any]:
-    """A scene of the grammar: its words are right, its numbers those of sheets; it may still be refused."""
+    """Draw a scene of the grammar: valid keys, numbers of sheets; it may be refused nevertheless."""
     side, aspect = draw(numbers(0.05, 0.5)), draw(st.sampled_from([1.0, 1.0, 0.5, 1.7, 3.0]))
     lengths = [side, side * aspect]
     data: dict[str, Any] = {
@@ -90,7 +90,7 @@ def sound(draw: st.DrawFn) -> dict[str, Any]:
 
 @st.composite
 def shape(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
-    """A shape about a point of the sheet, its sides on lines of coarse grids or not."""
+    """Draw a shape about a point of the sheet, its sides on lines of coarse grids or not."""
     share = st.sampled_from([0.0, 0.25, 0.5, 0.75, 1.0]) | numbers(-0.1, 1.1)
     middle = [draw(share) * length for length in lengths]
     size = draw(st.sampled_from([0.125, 0.25, 0.5]) | numbers(0.02, 0.4))
@@ -111,7 +111,7 @@ def shape(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
 
 @st.composite
 def shaped(draw: st.DrawFn) -> dict[str, Any]:
-    """A scene of the grammar with an outline, cutouts and patches, held and loaded where shapes say."""
+    """Draw a scene of the grammar with an outline, cutouts and patches, and supports and loads in shapes."""
     data = draw(sound())
     lengths = [data["sheet"]["length_x"], data["sheet"]["length_y"]]
     del data["probes"]
@@ -149,7 +149,7 @@ def support(draw: st.DrawFn, edge: str) -> dict[str, Any]:
 
 @st.composite
 def pin(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
-    """A point that is held, on lines of the coarsest grid."""
+    """Draw a held point, on lines of the coarsest grid."""
     at = [draw(st.sampled_from([0.0, 0.5, 1.0])) * length for length in lengths]
     return {
         "kind": "point",
@@ -160,7 +160,7 @@ def pin(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
 
 @st.composite
 def natural(draw: st.DrawFn, side: float) -> dict[str, Any]:
-    """A natural strain up to 3 %, a curvature up to 1.5 rad over the side; with a history or not."""
+    """Draw a natural strain up to 3 %, a curvature up to 1.5 rad over the side; with a history or not."""
     strain = draw(st.lists(numbers(-0.03, 0.03), min_size=3, max_size=3))
     curvature = [turn / side for turn in draw(st.lists(numbers(-1.5, 1.5), min_size=3, max_size=3))]
     data: dict[str, Any] = {"strain": strain, "curvature": curvature}
@@ -171,7 +171,7 @@ def natural(draw: st.DrawFn, side: float) -> dict[str, Any]:
 
 @st.composite
 def payload(draw: st.DrawFn, lengths: list[float]) -> dict[str, Any]:
-    """A body at a point, or over a part with moments of inertia, small or large beside the sheet."""
+    """Draw a body at a point, or over a part with moments of inertia, small or large beside the sheet."""
     at = [draw(st.sampled_from([0.0, 0.3, 1.0])) * length for length in lengths]
     data: dict[str, Any] = {"at": at, "mass": draw(numbers(1e-5, 0.1))}
     if draw(st.booleans()):
@@ -211,14 +211,14 @@ def actuator(draw: st.DrawFn, edge: str) -> dict[str, Any]:
 
 
 def places(data: Any) -> list[tuple[Any, Any]]:
-    """Every (container, key) of a document."""
+    """Return every (container, key) of a document."""
     keys = data.keys() if isinstance(data, dict) else range(len(data)) if isinstance(data, list) else ()
     return [place for key in keys for place in [(data, key), *places(data[key])]]
 
 
 @st.composite
 def documents(draw: st.DrawFn) -> dict[str, Any]:
-    """A scene's keys and values, mutated up to four times."""
+    """Draw a scene's keys and values, mutated up to four times."""
     data = copy.deepcopy(draw(st.one_of(st.sampled_from(list(CATALOGUE.values())), sound())))
     for _ in range(draw(st.integers(0, 4))):
         if not (found := places(data)):
@@ -247,7 +247,7 @@ def _keys(inside: Any) -> Any:
 
 @st.composite
 def texts(draw: st.DrawFn) -> bytes:
-    """A scene's file: a document's, now and then with its text broken."""
+    """Draw a scene's file: a document's, sometimes with its text broken."""
     try:
         text = tomlkit.dumps(draw(documents()))
     except (ValueError, TypeError):  # nothing that TOML can say, such as a list of tables and numbers
@@ -256,7 +256,7 @@ def texts(draw: st.DrawFn) -> bytes:
 
 
 def _broken(draw: st.DrawFn, text: bytes, pieces: tuple[str, ...]) -> bytes:
-    """Cut, overwritten or interspersed, one time in four."""
+    """Return a text, one time in four cut, overwritten or interspersed."""
     if draw(st.integers(0, 3)):
         return text
     at = draw(st.integers(0, len(text)))
@@ -266,7 +266,7 @@ def _broken(draw: st.DrawFn, text: bytes, pieces: tuple[str, ...]) -> bytes:
 
 @st.composite
 def command_lines(draw: st.DrawFn) -> list[str]:
-    """A verb, its scene and up to three options with values that may be anything; short runs else."""
+    """Draw a verb, its scene and up to three options with arbitrary values; short runs otherwise."""
     verb = draw(st.sampled_from(list(OPTIONS)))
     arguments = [verb, draw(st.sampled_from([*CATALOGUE, "no-such-scene"])), *SMALL.get(verb, "").split()]
     for _ in range(draw(st.integers(0, 3)) if OPTIONS[verb] else 0):
@@ -284,7 +284,8 @@ CELLS = (
 
 @st.composite
 def measured_files(draw: st.DrawFn) -> bytes:
-    """A table of measured displacements, or of a motion's samples, cells replaced and its text broken."""
+    """Draw a table of measured displacements, or of a motion's samples, cells replaced and its text
+    broken."""
     head = draw(
         st.sampled_from(["x,y,ux,uy,uz", "time,probe,ux,uy,uz", "probe,ux,uy,uz", "x;y;uz", "X\tY\tuz [m]"])
     )

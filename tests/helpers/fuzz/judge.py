@@ -1,4 +1,4 @@
-"""What every run must keep to: its exit status, its words, its numbers, its folder."""
+"""Requirements on every run: its exit status, its messages, its numbers, its folder."""
 
 import contextlib
 import io
@@ -28,7 +28,7 @@ class Outcome:
 
 
 def outcome(arguments: Sequence[str], folder: Path) -> Outcome:
-    """A command carried out in this process, in a folder of its own; terminal and pipe as for a program."""
+    """Run a command in this process, in a folder of its own; terminal and pipe as for a program."""
     out, err = io.StringIO(), io.StringIO()
     before, status = Path.cwd(), 0
     os.chdir(folder)
@@ -47,30 +47,31 @@ def outcome(arguments: Sequence[str], folder: Path) -> Outcome:
     return Outcome(status, out.getvalue(), err.getvalue())
 
 
-def held(found: Outcome, about: object) -> None:
-    """The documented statuses, no traceback; a refusal in one line at the end; no raw control characters."""
-    said = f"{about!r} → {found.status}\n{found.out[-2000:]}\n{found.err[-6000:]}"
-    assert found.status in (DONE, BAD_INPUT, NOT_CONVERGED), said
-    assert "Traceback" not in found.out + found.err, said
-    if found.status == BAD_INPUT:
-        last = found.err.rstrip("\n").rpartition("\n")[2]
+def held(result: Outcome, about: object) -> None:
+    """Assert a documented status, no traceback, a refusal in one line at the end, no raw control
+    characters."""
+    said = f"{about!r} → {result.status}\n{result.out[-2000:]}\n{result.err[-6000:]}"
+    assert result.status in (DONE, BAD_INPUT, NOT_CONVERGED), said
+    assert "Traceback" not in result.out + result.err, said
+    if result.status == BAD_INPUT:
+        last = result.err.rstrip("\n").rpartition("\n")[2]
         assert last.strip() and len(last) <= LONGEST, said
-        assert not found.out, said
-    for text in (found.out, found.err):
+        assert not result.out, said
+    for text in (result.out, result.err):
         assert not any((c < " " and c not in "\n\t\r") or "\x7f" <= c < "\xa0" for c in text), said
 
 
-def document(found: Outcome) -> Any:
-    """The JSON document of a run that has one; every number in it is finite."""
+def document(result: Outcome) -> Any:
+    """Return the JSON document of a run, if any; assert that every number in it is finite."""
 
     def refuse(word: str) -> None:
-        raise AssertionError(f"{word} in {found.out[:2000]}")
+        raise AssertionError(f"{word} in {result.out[:2000]}")
 
-    return json.loads(found.out, parse_constant=refuse)
+    return json.loads(result.out, parse_constant=refuse)
 
 
 def in_balance(answer: dict[str, Any]) -> None:
-    """What is called converged is in balance, and every probe of it has a place."""
+    """Assert that a converged answer is in balance, with a displacement of every probe."""
     for solution in answer["solutions"]:
         require_balanced(solution)
         places = np.ravel(list(solution["probes"].values())).tolist()

@@ -1,4 +1,4 @@
-"""One thing thrown at the program, judged: what became of it in a word, or an AssertionError.
+"""Trials of one random input: the outcome in a word, or an AssertionError.
 
 Each takes a folder of its own, in which it may write, and what its strategy of `fuzz.grammar` has drawn.
 """
@@ -24,7 +24,7 @@ WORDS = {0: "done", BAD_INPUT: "refused", NOT_CONVERGED: "not converged"}
 
 
 def reads(folder: Path, text: bytes) -> str:
-    """A scene's file is read, or refused in a line that names it."""
+    """Assert that a scene's file is read, or refused in a line with its name."""
     path = folder / "scene.toml"
     path.write_bytes(text)
     try:
@@ -42,7 +42,7 @@ def reads(folder: Path, text: bytes) -> str:
 
 
 def checks(folder: Path, text: bytes) -> str:
-    """A scene is checked, and written nowhere but where requested."""
+    """Assert that a scene is checked, and written only to the requested file."""
     (folder / "scene.toml").write_bytes(text)
     found = outcome(["check", "scene.toml", "--json", "--out", "out"], folder)
     held(found, text)
@@ -53,7 +53,7 @@ def checks(folder: Path, text: bytes) -> str:
 
 
 def compares(folder: Path, data: dict[str, Any]) -> str:
-    """A sound scene is solved, and what converges is in balance."""
+    """Assert that a sound scene is solved, and that a converged answer is in balance."""
     (folder / "scene.toml").write_text(tomlkit.dumps(data), encoding="utf-8")
     small = ("--lumped", "3", "--elements", "2", "--no-uncertainty", "--json")
     found = outcome(["compare", "scene.toml", *small], folder)
@@ -64,7 +64,7 @@ def compares(folder: Path, data: dict[str, Any]) -> str:
 
 
 def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
-    """A scene with shapes is refused in a line, or its lattice solved; what converges is in balance."""
+    """Assert that a scene with shapes is refused in a line, or solved, in balance if it converges."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -82,7 +82,7 @@ def solves_shapes(folder: Path, data: dict[str, Any]) -> str:
 
 
 def obeys(folder: Path, arguments: Sequence[str]) -> str:
-    """A command line is obeyed or refused, and leaves no file that was not requested."""
+    """Assert that a command line is obeyed or refused, and writes only requested files."""
     found = outcome(arguments, folder)
     held(found, arguments)
     if "--json" in arguments and found.status != BAD_INPUT and "--help" not in arguments:
@@ -95,7 +95,7 @@ STATIC = ("identify", "two-edges-clamped", "--lumped", "2")
 
 
 def measures(folder: Path, text: bytes) -> str:
-    """A measured file, of a rest or of a motion, is read or refused."""
+    """Assert that a measured file, of a rest or of a motion, is read or refused."""
     (folder / "measured.csv").write_bytes(text)
     found = outcome([*STATIC, "--measured", "measured.csv", "--json"], folder)
     held(found, text)

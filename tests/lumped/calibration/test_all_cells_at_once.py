@@ -48,7 +48,7 @@ def test_a_cells_springs_are_those_of_a_sheet_of_such_cells(gradients):
     springs = springs_of_cells(each, gradients=gradients)
     for row, column in ((0, 0), (1, 2), (2, 1), (4, 5)):
         at = slice(row, row + 1), slice(column, column + 1)
-        section = each.section.each(lambda part, at=at: part[at])
+        section = each.section.map(lambda part, at=at: part[at])
         one = replace(each, sides=each.sides[at], section=section, covered=each.covered[at])
         alone = springs_of_cells(one, springs.layer_distance, gradients=gradients)
         for name, values in springs.of.items():
@@ -64,7 +64,7 @@ def test_a_table_is_read_as_it_was_written(name):
     table = SpringSet.model_validate(found.springs.model_dump())
     assert table == found.springs == Springs.read(table).table()
     require_cells(table, found.grid, "")
-    with pytest.raises(BadInput, match="cells are wanted on"):
+    with pytest.raises(BadInput, match="cells are needed on"):
         require_cells(table, (found.grid[0] + 1, *found.grid[1:]), "")
 
 

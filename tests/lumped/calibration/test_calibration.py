@@ -71,7 +71,7 @@ def test_uniform_lattice_of_the_theory():
     row = {r["name"]: r["got"] for r in calibration.moduli}
     assert row["D12"] / row["D11"] == pytest.approx(0.5) and row["D66"] / row["D11"] == pytest.approx(0.5)
     miss = {r["name"]: r["miss"] for r in calibration.moduli}
-    assert miss["D66"] == pytest.approx(0.923, abs=1e-3)  # 1.92 times what ν = 0.48 asks for
+    assert miss["D66"] == pytest.approx(0.923, abs=1e-3)  # 1.92 times what ν = 0.48 requests for
 
 
 UNEQUAL = SpringSet(

@@ -38,7 +38,7 @@ def test_moduli_are_those_of_the_table(poisson, grid):
         assert name not in rows or rows[name]["miss"] == pytest.approx(0.0, abs=1e-9)
     springs = found.springs
     assert not any((springs.area, springs.mid_area, springs.shear, springs.mid_shear, springs.edge_shear))
-    assert any("worst of the training scenes" in note for note in found.remarks)
+    assert any("errors on the training scenes" in note for note in found.remarks)
 
 
 def test_long_cells_keep_nonnegative_links():

@@ -99,7 +99,7 @@ def test_what_cannot_be_told_apart_is_said():
     assert same.half_widths["a"] == same.half_widths["b"] == np.inf and np.isfinite(same.half_widths["c"])
     assert "a, b" in same.warnings[0]
     close = identifiability(["a", "b"], np.stack([x, x + 0.05 * x**2], axis=1), noise)
-    assert any("cannot tell a from b" in warning for warning in close.warnings)
+    assert any("cannot distinguish a from b" in warning for warning in close.warnings)
 
 
 @pytest.mark.parametrize("method", ["fit-static", "fit-modal"])

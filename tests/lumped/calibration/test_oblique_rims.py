@@ -51,7 +51,7 @@ class Strip:
         x, y = (0.5 * (side.at[1:] + side.at[:-1]) for side in lines)
         along = (np.stack([x[rims.columns], y[rims.rows]], axis=1) - self.middle) @ self.axes[0]
         sides = np.abs(along) < (0.5 * ALONG - 3.0) * self.size
-        cells = replace(whole.each(lambda part: part * share.reshape(*share.shape, *(1,) * (part.ndim - 2))))
+        cells = replace(whole.map(lambda part: part * share.reshape(*share.shape, *(1,) * (part.ndim - 2))))
         cells = replace(cells, rims=type(rims)(*(part[sides] for part in rims)), share=share)
         return lumped.calibrate(self.scene.sheet, self.scene.material, self.grid, method, cells=cells)
 

@@ -21,7 +21,7 @@ from contact_cases import (
     pressed_ball,
     rocking_frequency,
 )
-from drawn_obstacles import judged
+from drawn_obstacles import faults_of
 from scipy.optimize import fsolve
 
 import fem_reference
@@ -393,10 +393,10 @@ def test_light_sheet_is_not_left_in_the_air():
 
 @pytest.mark.parametrize("number", [pytest.param(2, marks=pytest.mark.nightly), 22, 39, 59])
 def test_drawn_sheet_is_not_walked_through(number):
-    assert judged(number) == ""
+    assert faults_of(number) == ""
 
 
 @pytest.mark.nightly
 def test_a_thousand_drawn_sheets():
-    faults = {number: found for number in range(1000) if (found := judged(number))}
+    faults = {number: found for number in range(1000) if (found := faults_of(number))}
     assert not faults

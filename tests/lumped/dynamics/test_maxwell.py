@@ -27,7 +27,7 @@ def test_the_tangent_is_the_forces_derivative(law):
     start, draw = initial_state(system, lattice, "tributary"), np.random.default_rng(1).standard_normal
     u, step = 2e-3 * draw(start.u.shape), draw(start.u.shape)
     state, _ = system.relaxed(start, replace(start, time=0.01, u=u))
-    system = system.within(state, 0.005)
+    system = system.for_step(state, 0.005)
     there = u + 1e-3 * draw(u.shape)
     blocks = system.matrix(there, np.zeros_like(u), 0.015, 0.0, 0.0, 1.0)
     found = system.problem.system.apply(blocks, step)
@@ -73,7 +73,7 @@ def test_modes_ring_down_at_their_poles(damped):
         u = 1e-7 * shape
         memory = None if system.maxwell is None else system.maxwell.at_rest(u)
         state = replace(start, u=u, memory=memory)
-        state = replace(state, a=system.accelerate(system.within(state).unbalanced(u, state.v, 0.0)))
+        state = replace(state, a=system.accelerate(system.for_step(state).unbalanced(u, state.v, 0.0)))
         step = 1.0 / (40.0 * ratio.frequency_hz)
         states, _ = run(Esdirk(system, step), state, step, 100)
         swing = np.array([np.sum(system.lattice_mass[:, None] * shape * state.u) for state in states])

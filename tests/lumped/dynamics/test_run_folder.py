@@ -126,7 +126,7 @@ def flipped(content):
     return content[:at] + bytes([content[at] ^ 1]) + content[at + 1 :]
 
 
-SHORT, CHANGED = "holds .* that the checkpoint counts", "is not what the run wrote: .*"
+SHORT, CHANGED = "holds .* that the checkpoint counts", "was changed after the run wrote it: .*"
 DAMAGE = [  # file, what is made of its content (None: removed), what is said
     *((name, change, SHORT) for name in ("samples.bin", "frames.bin") for change in (b"", half, None)),
     *((name, flipped, CHANGED) for name in ("samples.bin", "frames.bin")),
@@ -157,7 +157,7 @@ def test_a_run_that_other_code_began_is_not_gone_on_with(kept, key):
     run = json.loads((folder / "run.json").read_text())
     run["asked"][key] = "another"
     (folder / "run.json").write_text(json.dumps(run))
-    with pytest.raises(BadInput, match="another state of sheetbench's code began"):
+    with pytest.raises(BadInput, match="a run of other code of sheetbench"):
         again()
 
 

@@ -52,6 +52,7 @@ def test_factors_at_hand_polish():
     assert len(solution.history) == 6 and solution.status is Status.CONVERGED
 
 
+@pytest.mark.nightly
 def test_a_rubber_balloon_stops_at_its_limit_point_and_says_so():
     """Blown up neo-Hooke gives way from p = 1.2 E h/a on: a hundredth below the load told it holds."""
     scene = scenes.load(Path(__file__).parents[3] / "examples" / "rubber" / "inflated-square.toml")

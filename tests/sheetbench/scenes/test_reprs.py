@@ -16,7 +16,7 @@ import sheetbench as sb
 from comparisons.comparison.answer import Comparison
 from comparisons.models.spec import Elements, Lattice
 from comparisons.modes.answer import Spectra, Spectrum
-from comparisons.sweep.solved import Ask
+from comparisons.sweep.solved import Request
 from comparisons.tradeoff.answer import Tradeoff
 from comparisons.tradeoff.row import TradeoffRow
 from sheetbench import scenes
@@ -38,7 +38,7 @@ SPECTRA = Spectra(
     (Spectrum("lumped", "lumped 5×5×2", {}, 0.1, Still(FREQUENCIES, np.zeros(0), 0, 96)),),
 )
 ROWS = [
-    TradeoffRow(Ask(SCENE, spec), "converged", error=error, row={"cost": {"samples": [seconds]}})
+    TradeoffRow(Request(SCENE, spec), "converged", error=error, row={"cost": {"samples": [seconds]}})
     for spec, seconds, error in ((Lattice(3), 2e-3, 4e-3), (Elements("shell", 4), 0.1, 1e-3))
 ]
 TRADEOFF = Tradeoff(SCENE, tuple(ROWS), ROWS[1], 1e-4)
@@ -115,7 +115,7 @@ def test_a_solution_knows_the_probes_of_its_scene():
     at_p4 = solution.displacement(np.array([SCENE.probes["P4"]]))[0]
     assert np.array_equal(solution.displacement("P4"), at_p4)
     assert np.array_equal(solution.probes["P4"], at_p4)
-    with pytest.raises(sb.BadInput, match="no probe of this name; known are P1, P2"):
+    with pytest.raises(sb.BadInput, match="no probe of this name; known: P1, P2"):
         solution.displacement("P9")
 
 

@@ -49,7 +49,7 @@ def test_stored_rows_have_the_published_numbers():
 
 def test_a_ladder_is_measured_against_the_reference_set(tmp_path, monkeypatch):
     monkeypatch.setattr(results, "RESULTS", tmp_path)
-    monkeypatch.setitem(models.LADDERS, "lattice", ("lattice", "MIT", (Lattice(3), Lattice(5))))
+    monkeypatch.setitem(models.LADDERS, "lattice", models.Ladder("lattice", "MIT", (Lattice(3), Lattice(5))))
     models.climb("lattice", lambda _: None)
     rows = read_results(tmp_path / "lattice.json").rows
     assert [row.recipe for row in rows] == ["3 × 3", "5 × 5"]
@@ -71,7 +71,7 @@ def test_rows_with_the_same_inputs_are_not_run_again(tmp_path, monkeypatch):
     monkeypatch.setattr(trials, "RECIPES", {"newton": recipes})
     said = []
     trials.run_trials("newton", str(code), 1.0, -1.0, said.append)
-    assert said == ["newton: -1 s have passed; 2 of 2 rows not looked at"]
+    assert said == ["newton: -1 s have passed; 2 of 2 rows not checked"]
     trials.run_trials("newton", str(code), 1.0, 1e9, said.append)
     before = (tmp_path / "newton.json").read_text()
     code.write_text("#!/bin/sh\nexit 1\n")

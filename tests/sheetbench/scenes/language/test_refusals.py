@@ -27,7 +27,7 @@ def with_load(keys):
         (
             with_load('kind = "edge"\nedge = "x1"\nforce = [0.0, 0.0, 1.0]'),
             "load 2.force = [0.0, 0.0, 1.0]: unknown key; "
-            "known here are edge, force_per_length, history, hold, kind, moment_per_length, where",
+            "known: edge, force_per_length, history, hold, kind, moment_per_length, where",
         ),
         (
             with_load('kind = "pressure"\nvalue = "2"'),

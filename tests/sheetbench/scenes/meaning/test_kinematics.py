@@ -42,7 +42,7 @@ def test_slopes_are_those_from_a_moment_on_and_rounding_misses_none():
 def test_a_bent_edge_lies_on_an_arc_about_the_middle_of_its_own(curvature):
     """κ → 0 from numbers whose 1 − cos has no digits left: the parabola κ s²/2."""
     support = Curved(edge="x0", curvature=curvature)
-    points, placed = on_edge("x0"), TurnedEdge(support, (support,), SHEET).placed(on_edge("x0"))
+    points, displaced = on_edge("x0"), TurnedEdge(support, (support,), SHEET).displaced(on_edge("x0"))
     s = points[:, 1] - 0.1
     if abs(curvature) > 1e-6:
         arc = np.column_stack(
@@ -50,25 +50,25 @@ def test_a_bent_edge_lies_on_an_arc_about_the_middle_of_its_own(curvature):
         )
     else:
         arc = np.column_stack([0.0 * s, 0.0 * s, 0.5 * curvature * s**2])
-    assert_allclose(placed.displacement, arc, atol=1e-17 + 1e-14 * np.abs(arc).max())
+    assert_allclose(displaced.displacement, arc, atol=1e-17 + 1e-14 * np.abs(arc).max())
     normal = np.column_stack([0.0 * s, -np.sin(curvature * s), np.cos(curvature * s)])
-    assert_allclose(UP + placed.director, normal, atol=1e-15)
+    assert_allclose(UP + displaced.director, normal, atol=1e-15)
 
 
 def test_on_a_plane_of_symmetry_a_rod_has_its_middle():
     supports = (Curved(edge="x0", curvature=3.0), Symmetric(edge="y1"))
-    placed = bent_or_tilted(supports, SHEET)[0].placed(on_edge("x0"))
-    assert_allclose(placed.displacement[-1], 0.0, atol=1e-18)
-    assert placed.displacement[0, 2] == pytest.approx((1.0 - np.cos(0.6)) / 3.0, rel=1e-13)
+    displaced = bent_or_tilted(supports, SHEET)[0].displaced(on_edge("x0"))
+    assert_allclose(displaced.displacement[-1], 0.0, atol=1e-18)
+    assert displaced.displacement[0, 2] == pytest.approx((1.0 - np.cos(0.6)) / 3.0, rel=1e-13)
 
 
 @pytest.mark.parametrize("edge", ["x0", "x1", "y0", "y1"])
 def test_beyond_a_tilted_clamp_the_sheet_would_go_up(edge):
-    placed = TurnedEdge(Clamped(edge=edge, tilt=0.3), (), SHEET).placed(on_edge(edge), 0.5)
+    displaced = TurnedEdge(Clamped(edge=edge, tilt=0.3), (), SHEET).displaced(on_edge(edge), 0.5)
     outward = {"x0": (-1, 0), "x1": (1, 0), "y0": (0, -1), "y1": (0, 1)}[edge]
     director = [-np.sin(0.15) * outward[0], -np.sin(0.15) * outward[1], np.cos(0.15)]
-    assert_allclose(UP + placed.director, np.tile(director, (len(HEIGHT), 1)), atol=1e-15)
-    assert_allclose(placed.lifted(HEIGHT), HEIGHT[:, None] * (np.array(director) - UP), atol=1e-17)
+    assert_allclose(UP + displaced.director, np.tile(director, (len(HEIGHT), 1)), atol=1e-15)
+    assert_allclose(displaced.lifted(HEIGHT), HEIGHT[:, None] * (np.array(director) - UP), atol=1e-17)
 
 
 @pytest.mark.parametrize("time", [0.0, 0.1, 0.23, 0.69, 2.0, None])
@@ -80,14 +80,16 @@ def test_a_moved_edge_is_a_rigid_bar(time):
     )
     arms = np.column_stack([points - [0.3, 0.1], HEIGHT])
     expected = share * d + Rotation.from_rotvec(share * theta).apply(arms) - arms
-    assert_allclose(MovedEdge(MOTION, SHEET).placed(points, share, time).lifted(HEIGHT), expected, atol=1e-16)
+    assert_allclose(
+        MovedEdge(MOTION, SHEET).displaced(points, share, time).lifted(HEIGHT), expected, atol=1e-16
+    )
 
 
 @pytest.mark.parametrize("time", [0.05, 0.1, 0.3, 0.6, 0.9])
 def test_the_velocity_of_a_moved_edge_is_its_derivative(time):
     """One-sided differences of second order: h² of the third derivative, and rounding over h."""
     edge, points, h = MovedEdge(MOTION, SHEET), on_edge("x1"), 1e-5
-    now, soon, later = (edge.placed(points, time=time + k * h).lifted(HEIGHT) for k in range(3))
+    now, soon, later = (edge.displaced(points, time=time + k * h).lifted(HEIGHT) for k in range(3))
     assert_allclose(
         edge.velocity(points, HEIGHT, time), (4.0 * soon - 3.0 * now - later) / (2.0 * h), atol=1e-8
     )
@@ -103,7 +105,7 @@ def test_the_velocity_of_a_moved_edge_is_its_derivative(time):
 )
 def test_the_linear_change_is_the_derivative_by_the_load_factor(edge):
     points, h = on_edge("x1"), 1e-4
-    up, down = edge.placed(points, h), edge.placed(points, -h)
+    up, down = edge.displaced(points, h), edge.displaced(points, -h)
     displacement, director = edge.linear(points)
     assert_allclose((up.displacement - down.displacement) / (2.0 * h), displacement, atol=1e-8)
     assert_allclose((up.director - down.director) / (2.0 * h), director, atol=1e-7)

@@ -31,8 +31,7 @@ def test_a_mass_is_read_written_and_told(tmp_path):
     words = dict(in_words(scene))
     assert words["mass 1"] == "5 g at (200, 50) mm, on edge x1"
     assert words["mass 2"].endswith(
-        ", moments of inertia 20 and 10 g·cm² about x and y, "
-        "of that about z, the sheet's normal, nothing is taken"
+        ", moments of inertia 20 and 10 g·cm² about x and y; the one about z, the sheet's normal, is ignored"
     )
     assert words["sheet"].endswith(", 60 g") and words["weight"] == "0.647 N along −z, of 66 g in all"
     spread = read(tmp_path, f"{BASE}[[mass]]\nmass = 0.005\n{DISC(0.1)}")
@@ -47,10 +46,10 @@ REFUSED = {
     f"mass = 0.1\n{DISC(0.5)}": "mass 1.where: circle .* no part of it is on the sheet",
     "at = [0.1, 0.05]": "mass 1.mass: missing",
     "at = [0.1, 0.05]\nmass = -0.1": "mass 1.mass = -0.1: must be greater than 0",
-    'at = [0.1, 0.05]\nmass = "5 mm"': "'5 mm' is a length; needed is a mass: 20 g",
+    'at = [0.1, 0.05]\nmass = "5 mm"': "'5 mm' is a length; a mass is needed: 20 g",
     f"mass = 0.1\ninertia = [1.0, -1.0, 0.0]\n{DISC(0.1)}": "mass 1.inertia 2 = -1.0: must be 0 or more",
     "at = [0.1, 0.05]\nmass = 0.1\ninertia = [1.0, 1.0, 0.0]": "inertia: at a point .* give where, the part",
-    'at = [0.1, 0.05]\nweight = "5 N"': r"mass 1.weight .* unknown key; known here are at, inertia",
+    'at = [0.1, 0.05]\nweight = "5 N"': r"mass 1.weight .* unknown key; known: at, inertia",
 }  # fmt: skip
 
 

@@ -34,9 +34,8 @@ def frame(high=0.0):
     at = [(i, j) for j in range(3) for i in range(3) if (i, j) != (1, 1)]
     places = np.concatenate([square(0.1 * i, 0.1 * j) for i, j in at]).round(3)
     points, which = np.unique(places, axis=0, return_inverse=True)
-    quads = which.reshape(-1, 4)
+    quads, unused = which.reshape(-1, 4), [[7.0, 7.0, 0.0]]
     last = quads[-1]
-    unused = [[7.0, 7.0, 0.0]]
     points = np.concatenate([np.column_stack([points, np.full(len(points), high)]), unused])
     return points, {"quad": quads[:-1], "triangle": np.array([last[:3], last[[0, 2, 3]]])}
 
@@ -134,7 +133,7 @@ def test_a_cutout_beside_a_mesh_is_refused(tmp_path):
     path = written(tmp_path, *frame())
     cutout = "[[cutout]]\nshape = { circle = { centre = [0.1, 0.1], radius = 0.01 } }\n"
     path.write_text(path.read_text() + cutout)
-    with pytest.raises(SceneError, match=r"cutout 1: beside sheet\.mesh"):
+    with pytest.raises(SceneError, match=r"cutout 1: not with sheet\.mesh"):
         load(path)
 
 
@@ -197,15 +196,11 @@ def cloth(turn=lambda x, y: (x, y, 0.0), n=3):
     return places, [(i + 1, i + 2, i + 5, i + 4) for i in (0, 1, 3, 4)]
 
 
-def y_up(x, y):
-    return x, 0.0, -y
-
-
 def triangles(faces):
     return [corners for a, b, c, d in faces for corners in ((a, b, c), (a, c, d))]
 
 
-UP, YUP, ONE_NORMAL = cloth(), cloth(y_up), "vn 0 0 1\nvn 0 0 -1"
+UP, YUP, ONE_NORMAL = cloth(), cloth(lambda x, y: (x, 0.0, -y)), "vn 0 0 1\nvn 0 0 -1"
 FOUR_TEXTURES = "".join(f"vt {x} {y}\n" for x in (0, 1) for y in (0, 1))
 MAKERS = {
     "blender": obj(*YUP, "mtllib a.mtl\no Plane", "{}/1/1", FOUR_TEXTURES + ONE_NORMAL + "\nusemtl a\ns off"),
@@ -218,29 +213,33 @@ MAKERS = {
     "sofa triangles, counted back": obj(UP[0], np.array(triangles(UP[1])) - 10, "", "{}"),
     "sofa groups, colours": obj(*UP, "g a", "{}//1", "vn 0 0 1\ns 1").replace(" 0.000000\n", " 0.0 1 0 0\n"),
 }  # fmt: skip
+TURNED = {"blender": "xz", "bullet y up": "xz", "sofa quads": "yz"}
 
 
 @pytest.mark.parametrize("maker", MAKERS)
 def test_obj_files_are_read_as_their_makers_write_them(tmp_path, maker):
     path = beside(tmp_path, "m.obj", MAKERS[maker], 0.25, 0.25)
+    path.write_text(path.read_text().replace('"m.obj"', '"m.obj", mesh_scale = 0.25, mesh_shift = "corner"'))
+    scene = load(path)
+    assert scene.region.bounds == (0.0, 0.0, 0.25, 0.25) and scene.region.area == pytest.approx(0.0625)
+    turned, said = TURNED.get(maker), dict(in_words(scene))["sheet"]
+    assert f"turned from its {turned} plane" in said if turned else "turned" not in said
+    assert "1 unit of it is 250 mm, moved by 125, 125 mm" in said
+    assert Scene.model_validate(scene.document()) == scene
+
+
+def test_a_mesh_is_scaled_and_moved_by_two_keys_that_refusals_name(tmp_path):
+    path = beside(tmp_path, "m.obj", MAKERS["sofa quads"], 0.25, 0.25)
     with pytest.raises(SceneError, match=r"mesh_scale = 0\.25 times what it is makes it as long"):
         load(path)
     path.write_text(path.read_text().replace('"m.obj"', '"m.obj", mesh_scale = 0.25'))
     with pytest.raises(SceneError, match='mesh_shift = "corner" puts them there'):
         load(path)
-    read = {}
+    meshes, text = [], path.read_text()
     for shift in ('"corner"', '"centre"', "[0.125, 0.125]"):
-        text = path.read_text().replace("mesh_scale", f"mesh_shift = {shift}, mesh_scale")
-        (tmp_path / "moved.toml").write_text(text)
-        read[shift] = load(tmp_path / "moved.toml")
-    assert len(set(map(str, (scene.sheet.mesh for scene in read.values())))) == 1
-    scene = read['"corner"']
-    assert scene.region.bounds == (0.0, 0.0, 0.25, 0.25) and scene.region.area == pytest.approx(0.0625)
-    turned = {"blender": "xz", "bullet y up": "xz", "sofa quads": "yz"}.get(maker)
-    said = dict(in_words(scene))["sheet"]
-    assert f"turned from its {turned} plane" in said if turned else "turned" not in said
-    assert "1 unit of it is 250 mm, moved by 125, 125 mm" in said
-    assert Scene.model_validate(scene.document()) == scene
+        path.write_text(text.replace("mesh_scale", f"mesh_shift = {shift}, mesh_scale"))
+        meshes.append(load(path).sheet.mesh)
+    assert meshes[0].points[0] == (0.0, 0.0) and meshes[1:] == 2 * meshes[:1]
 
 
 def test_a_mesh_is_as_precise_as_its_file(tmp_path):
@@ -248,7 +247,7 @@ def test_a_mesh_is_as_precise_as_its_file(tmp_path):
     points = [(x / 3, y / 3, 0.0) for x in (0, 1) for y in (0, 1)]
     scene = load(beside(tmp_path, "m.obj", obj(points, [(1, 3, 4, 2)]), 1 / 3, 1 / 3))
     assert scene.region.bounds == (0.0, 0.0, 1 / 3, 1 / 3)
-    with pytest.raises(SceneError, match="mesh_scale: is of a file of mesh or outline"):
+    with pytest.raises(SceneError, match="mesh_scale: for a file of mesh or outline"):
         scene.replace(mesh_scale=0.1)
 
 

@@ -45,17 +45,17 @@ def test_a_quantity_is_the_number_in_si_units_to_the_last_digit(text, unit, valu
 @pytest.mark.parametrize(
     ("text", "unit", "said"),
     [
-        ("2 MPa", "m", "'2 MPa' is a stress or modulus; needed is a length: 2 mm"),
-        ("2 mm", "Pa", "'2 mm' is a length; needed is a stress or modulus: 0.6 MPa"),
-        ("5 %", "rad", "is a pure number; needed is an angle: 2 deg"),
-        ("2 foo", "m", "'foo' is no unit known here"),
-        ("2 Mpa", "Pa", "'Mpa' is no unit known here (MPa or mPa?)"),
-        ("3 mm/", "m", "nothing stands after the last /"),
+        ("2 MPa", "m", "'2 MPa' is a stress or modulus; a length is needed: 2 mm"),
+        ("2 mm", "Pa", "'2 mm' is a length; a stress or modulus is needed: 0.6 MPa"),
+        ("5 %", "rad", "is a pure number; an angle is needed: 2 deg"),
+        ("2 foo", "m", "'foo' is no known unit"),
+        ("2 Mpa", "Pa", "'Mpa' is no known unit (MPa or mPa?)"),
+        ("3 mm/", "m", "nothing follows the last /"),
         ("1,2 mm", "m", "with a decimal point"),
         ("two", "m", "write a number [m], or with a unit: 2 mm"),
         ("nan", "m", "is no quantity"),
         ("1e301 m", "m", "too large"),
-        ("3 m^999999999", "m", "no unit known"),
+        ("3 m^999999999", "m", "no known unit"),
     ],
 )
 def test_what_is_no_quantity_of_the_kind_is_refused_by_name(text, unit, said):
@@ -119,9 +119,9 @@ def test_a_file_takes_quantities_wherever_a_number_has_a_unit(tmp_path):
 @pytest.mark.parametrize(
     ("text", "stands", "said"),
     [
-        ('"120 mm"', '"120 MPa"', "sheet.length_x: '120 MPa' is a stress or modulus; needed is a length"),
-        ('"100 ms"], value', '"100 mm"], value', "actuator 1.curvature.time 2: '100 mm' is a length; needed"),
-        ('"10 mm"', '"10 s"', "probes.P1 1: '10 s' is a time; needed is a length"),
+        ('"120 mm"', '"120 MPa"', "sheet.length_x: '120 MPa' is a stress or modulus; a length is needed"),
+        ('"100 ms"], value', '"100 mm"], value', "curvature.time 2: '100 mm' is a length; a time is needed"),
+        ('"10 mm"', '"10 s"', "probes.P1 1: '10 s' is a time; a length is needed"),
         ("poisson = 0.45", 'poisson = "0.45"', "material.poisson = '0.45': must be a number"),
         ("segments = 8", 'segments = "8"', "segments = '8': must be a whole number"),
     ],

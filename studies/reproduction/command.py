@@ -6,11 +6,13 @@ from typing import Annotated, Any
 
 from comparisons.cli.options import Kind
 from comparisons.cli.output import PictureOptions
-from sheetbench.choices import ELEMENTS, REPRODUCED
+from comparisons.models.grids import parse_elements
+from sheetbench.choices import ELEMENTS
+from studies.reproduction.study import PARTS, reproduce
 
 
 def command(
-    part: Annotated[list[str] | None, Kind(choices=REPRODUCED)] = None,
+    part: Annotated[list[str] | None, Kind(choices=PARTS)] = None,
     elements: str = str(ELEMENTS),
     *,
     output: PictureOptions,
@@ -20,11 +22,7 @@ def command(
     The answer includes the sheets nearest to the published tables, and entries that no sheet reproduces.
 
     Args:
-        part (NAMES): Only {REPRODUCED}. Default: all.
-    """
-    from comparisons.models.grids import parse_elements
-    from comparisons.reproduction.reproduction import reproduce
-
-    parts = [name for name in REPRODUCED if name in (part or REPRODUCED)]
+        part (NAMES): Only {PARTS}. Default: all."""
+    parts = [name for name in PARTS if name in (part or PARTS)]
     with output.open(variant={"--part": parts}) as out:
         return out.show(reproduce(parts, parse_elements(elements)))

@@ -8,18 +8,19 @@ import numpy as np
 import pytest
 from commands import run
 
-from comparisons.reproduction.answers import answer, published, scene
-from comparisons.reproduction.printed_errors import cells, means
-from comparisons.reproduction.published import (
+from sheetbench.answers.report import Report
+from sheetbench.answers.solution import Status
+from studies.reproduction import findings
+from studies.reproduction.answers import answer, published, scene
+from studies.reproduction.printed_errors import cells, means
+from studies.reproduction.published import (
     KNOWN_FAULTS,
     published_displacements,
     published_errors,
     published_inputs,
 )
-from comparisons.reproduction.reproduction import Reproduction
-from comparisons.reproduction.settling import settling
-from sheetbench.answers.report import Report
-from sheetbench.answers.solution import Status
+from studies.reproduction.settling import settling
+from studies.reproduction.study import Reproduction
 
 
 @pytest.fixture(scope="module")
@@ -119,3 +120,14 @@ def test_published_displacements_are_in_metres_and_as_printed_and_errors_do_not_
         assert values[1, "model", "ux", here] == pytest.approx(-values[1, "model", "uy", there])
         assert values[1, "model", "uz", here] == pytest.approx(values[1, "model", "uz", there])
     assert np.mean([*published_errors().values()]) == pytest.approx(0.0492, abs=5e-5)  # quoted: 4.8 %
+
+
+def test_a_fit_is_shown_in_the_tables_units(monkeypatch):
+    sought = {"young": 2.5e6, "k": 321.0, "layer_distance": 1.5e-3, "tilt": np.pi / 6.0, "curvature": 4.0}
+    numbers = {"by": "misfit", "rms": 0.25, "error": 0.5, "met": 9, "entries": 12}
+    fit = {"tests": [1], "sense": 0, "kind": "sheet", "table": "experiment", "sought": sought, **numbers}
+    monkeypatch.setattr(findings, "stored", lambda: {"made": "", "fits": [fit]})
+    table = findings.nearest_table()
+    row = dict(zip((column.name for column in table.columns), table.shown_rows()[0], strict=True))
+    assert [float(row[name]) for name in ("E", "k", "lz", "tilt", "κ")] == [2.5, 321.0, 1.5, 30.0, 4.0]
+    assert (float(row["rms"]), float(row["error"]), row["met"]) == (25.0, 50.0, "9 of 12")

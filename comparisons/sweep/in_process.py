@@ -17,7 +17,7 @@ from comparisons.models.spec import Lattice, Spec
 from comparisons.pictures.work import silent
 from comparisons.sweep import load
 from comparisons.sweep.differences import field_points
-from comparisons.sweep.solved import Ask, Solved
+from comparisons.sweep.solved import Request, Solved
 from sheetbench.answers.history import History
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene
@@ -26,25 +26,25 @@ QUICK = 0.2  # s: longer solves are not repeated
 
 
 @dataclass(frozen=True, kw_only=True)
-class SolvedHere(Solved):
+class LocalSolve(Solved):
     """A row with its answer."""
 
     answer: Solution
 
     @cached_property
     def u(self) -> np.ndarray:
-        return self.answer.displacement(self.ask.scene.probe_points())
+        return self.answer.displacement(self.request.scene.probe_points())
 
     @cached_property
     def field(self) -> np.ndarray:
-        return self.answer.displacement(field_points(self.ask.scene))
+        return self.answer.displacement(field_points(self.request.scene))
 
     @property
     def seconds(self) -> float:
         return median(self.samples)
 
 
-def here(model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = None) -> SolvedHere:
+def solve_in_process(model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = None) -> LocalSolve:
     """Solve a model and return its row; name: in place of its own; repeats: of a quick solve; near: a shape
     to start from."""
     answer = solve(model, name, near)
@@ -55,13 +55,13 @@ def here(model: Resolved[Any], name: str = "", repeats: int = 1, near: Any = Non
     row = {"settings": answer.settings, "load_factor": answer.load_factor, "probes": model.scene.probes}
     row["cost"] = {"samples": samples, "load_average": load.average()}
     status = str(answer.status)
-    return SolvedHere(Ask(model.scene, model.spec, repeats), status, answer.message, row, answer=answer)
+    return LocalSolve(Request(model.scene, model.spec, repeats), status, answer.message, row, answer=answer)
 
 
-def moved_here(scene: Scene, spec: Spec, history: History) -> Solved:
+def motion_row(scene: Scene, spec: Spec, history: History) -> Solved:
     """Return the row of a motion; the row of an incomplete motion has no values."""
-    ask, row = Ask(scene, spec, duration=float(history.time[-1])), {"probes": history.probes}
-    return Solved(ask, str(history.status), history.message, row if history.succeeded else {})
+    request, row = Request(scene, spec, duration=float(history.time[-1])), {"probes": history.probes}
+    return Solved(request, str(history.status), history.message, row if history.succeeded else {})
 
 
 def with_room(scene: Scene, lattice: Lattice) -> Solution | None:

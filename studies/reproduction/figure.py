@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from comparisons.reproduction.answers import COMPONENTS, SOURCES, ReproducedTest, published
-from comparisons.reproduction.published import PROBES
 from sheetbench.answers.figure_style import FigureStyle
 from sheetbench.answers.style import DARK, GREY, SERIES
+from studies.reproduction.answers import COMPONENTS, SOURCES, ReproducedTest, published
+from studies.reproduction.published import PROBES
 
 PUBLISHED = {"published model": ("s", DARK), "published experiment": ("D", GREY)}
 OURS = tuple(zip("oXvP", (SERIES[0], SERIES[5], SERIES[1], SERIES[2]), strict=True))

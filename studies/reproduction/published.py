@@ -16,7 +16,7 @@ PROBES = ("P1", "P2", "P3", "P4")
 KNOWN_FAULTS = (
     "The two bodies of the displacement tables stand swapped in the text; here symmetry distinguishes them.",
     "The unit is mm, although one header says m.",
-    "Experimental uy(P4) of test 1 is printed −1.86; the symmetry of the test asks +1.86.",
+    "Experimental uy(P4) of test 1 is printed −1.86; the symmetry of the test gives +1.86.",
     "In test 1 the published y axis points the other way than in a scene with edges x0 and y0 clamped: "
     "compare −uy.",
     "The printed percentage errors are relative to the experiment in some cells and to the model in others, "
@@ -54,5 +54,5 @@ def published_errors() -> dict[tuple[int, str, str], float]:
 
 
 def _rows(name: str) -> list[dict[str, str]]:
-    text = (resources.files("comparisons.reproduction") / "data" / name).read_text(encoding="utf-8")
+    text = (resources.files("studies.reproduction") / "data" / name).read_text(encoding="utf-8")
     return list(csv.DictReader(text.splitlines()))

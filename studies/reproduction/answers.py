@@ -25,9 +25,9 @@ from comparisons.models.context import context
 from comparisons.models.grids import Elements
 from comparisons.models.spec import Lattice
 from comparisons.pictures.work import Work
-from comparisons.reproduction.published import PROBES, published_displacements, published_inputs
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.parameters import put
+from studies.reproduction.published import PROBES, published_displacements, published_inputs
 
 COMPONENTS = ("ux", "uy", "uz")
 SOURCES = ("model", "experiment")

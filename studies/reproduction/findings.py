@@ -17,7 +17,6 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.reproduction.answers import RODS, ReproducedTest, published
 from sheetbench.answers.solution import Status
 from sheetbench.answers.table import (
     MEGAPASCALS,
@@ -28,6 +27,7 @@ from sheetbench.answers.table import (
     TableUnit,
     percent,
 )
+from studies.reproduction.answers import RODS, ReproducedTest, published
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ TEXT = (
 @cache
 def stored() -> dict[str, Any]:
     """Return the stored results: `made` (their origin), `findings`, `fits`."""
-    file = resources.files("comparisons.reproduction").joinpath("data", "nearest.json")
+    file = resources.files("studies.reproduction").joinpath("data", "nearest.json")
     document: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return document
 

@@ -17,8 +17,15 @@ import numpy as np
 
 from comparisons.models.grids import Elements
 from comparisons.pictures.array_files import write_mesh
-from comparisons.reproduction import findings, printed_errors
-from comparisons.reproduction.answers import (
+from sheetbench.answers.answer import Answer
+from sheetbench.answers.files import write_text
+from sheetbench.answers.report import Picture, Write, drawn_from
+from sheetbench.answers.solution import Status
+from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
+from sheetbench.choices import ELEMENTS
+from sheetbench.scenes.meaning.words import sheet_in_words
+from studies.reproduction import findings, printed_errors
+from studies.reproduction.answers import (
     COMPONENTS,
     SETS,
     SOURCES,
@@ -27,17 +34,11 @@ from comparisons.reproduction.answers import (
     published,
     scene,
 )
-from comparisons.reproduction.findings import Finding
-from comparisons.reproduction.published import KNOWN_FAULTS, PROBES, published_inputs
-from comparisons.reproduction.settling import PROBE, SETTLED, Settling, settling
-from sheetbench.answers.answer import Answer
-from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Picture, Write, drawn_from
-from sheetbench.answers.solution import Status
-from sheetbench.answers.table import MILLIMETRES, NUMBER, PERCENT, SECONDS, Column, Table, percent
-from sheetbench.choices import ELEMENTS, REPRODUCED
-from sheetbench.scenes.meaning.words import sheet_in_words
+from studies.reproduction.findings import Finding
+from studies.reproduction.published import KNOWN_FAULTS, PROBES, published_inputs
+from studies.reproduction.settling import PROBE, SETTLED, Settling, settling
 
+PARTS = ("errors", "tables", "settling", "nearest")
 STUDY = (
     "Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for large-deformation "
     "continuum surfaces"
@@ -143,7 +144,7 @@ class Reproduction(Answer):
         ]
 
     def figures(self) -> list[Picture]:
-        compose = "comparisons.reproduction.figure:test"
+        compose = "studies.reproduction.figure:test"
         return [Picture(a.name, compose, (a,), drawn_from([displacements(a)])) for a in self.answers]
 
     def notes(self) -> list[str]:
@@ -173,14 +174,14 @@ class Reproduction(Answer):
         return {"parts": list(self.parts), "elements": self.elements}
 
 
-def reproduce(parts: Collection[str] = REPRODUCED, elements: Elements = ELEMENTS) -> Reproduction:
+def reproduce(parts: Collection[str] = PARTS, elements: Elements = ELEMENTS) -> Reproduction:
     """Reproduce parts of the study; elements: of the shell."""
     results: dict[str, Any] = {}
     if "tables" in parts:
         results["answers"] = tuple(answer(test, sense, elements) for test, sense in SETS)
     if "settling" in parts:
         results["settling"] = settling()
-    return Reproduction(tuple(part for part in REPRODUCED if part in parts), elements, **results)
+    return Reproduction(tuple(part for part in PARTS if part in parts), elements, **results)
 
 
 def displacements(reproduced: ReproducedTest) -> Table:

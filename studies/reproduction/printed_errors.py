@@ -14,10 +14,10 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.reproduction.answers import SOURCES
-from comparisons.reproduction.findings import Finding
-from comparisons.reproduction.published import published_displacements, published_errors, published_inputs
 from sheetbench.answers.table import PERCENT, Column, Table, percent
+from studies.reproduction.answers import SOURCES
+from studies.reproduction.findings import Finding
+from studies.reproduction.published import published_displacements, published_errors, published_inputs
 
 TEXT = (
     "|model − experiment| of the published tables, relative to the one and to the other, and to which "

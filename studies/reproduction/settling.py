@@ -15,15 +15,15 @@ import numpy as np
 
 import lumped
 from comparisons.models.context import context
-from comparisons.reproduction.answers import (
+from sheetbench.answers.history import History
+from sheetbench.scenes import Scene, load
+from studies.reproduction.answers import (
     masses,
     matched_layer_distance,
     published_lattice,
     published_springs,
 )
-from comparisons.reproduction.published import published_inputs
-from sheetbench.answers.history import History
-from sheetbench.scenes import Scene, load
+from studies.reproduction.published import published_inputs
 
 SCENE, PROBE = "two-edges-settling", "P4"
 DURATION = 2.0  # s

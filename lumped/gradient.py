@@ -34,6 +34,7 @@ import scipy.sparse as sp
 from lumped.assembly import Assembly
 from lumped.calibration import MAKERS, Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
+from lumped.contact import middle
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.pattern import SHARED_UP_TO
@@ -182,8 +183,7 @@ class Equilibrium:
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
         """Return the derivatives of J by name; weights: ∂J/∂u (p, 3) at plan points (p, 2)."""
-        middle = MidSurface(self.problem.assembly.lattice, points)
-        return self.pullback(middle.shared(weights, len(self.u)))
+        return self.pullback(self._middle(points).shared(weights, len(self.u)))
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
         """Return the change (n, 3) [m] of the displacement by changes of parameters, to first order."""
@@ -196,7 +196,11 @@ class Equilibrium:
 
     def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
-        return MidSurface(self.problem.assembly.lattice, points).of(self.pushforward({name: 1.0}))
+        return self._middle(points).of(self.pushforward({name: 1.0}))
+
+    def _middle(self, points: np.ndarray) -> MidSurface:
+        problem = self.problem
+        return middle(problem.contacts, problem.assembly.lattice, self.u, np.asarray(points, float))[1]
 
     def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""

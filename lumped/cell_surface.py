@@ -93,8 +93,8 @@ class CellSurface:
 
 
 class CurvedSurface(MidSurface):
-    """Changes at plan points (k, 2) of the curved surface: those of the straight one, and `by` (k, 3, q, 3)
-    the masses `nodes` (k, q) of their cells."""
+    """Changes of the curved surface at plan points (k, 2): changes of the straight surface, and `by` (k, 3,
+    q, 3) times the displacements of the cells' masses `nodes` (k, q)."""
 
     def __init__(self, lattice: Lattice, points: np.ndarray, nodes: np.ndarray, by: np.ndarray):
         super().__init__(lattice, points, order=1)

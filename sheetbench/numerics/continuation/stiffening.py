@@ -13,7 +13,7 @@ in load steps so short that no obstacle moves by more than a quarter of its radi
 
 A penalty has the `obstacle`, the acting `share` of its stiffness, whether its patch is within cells, `bent`,
 and at its points the full stiffness `full` (…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method
-`near` takes the points as `placed`.
+`near` takes the result of `configuration`.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ def stiffened(
 
 def borne_share(path: Path[State, Forces]) -> float:
     """Return the share that contacts bear of the forces in balance, which stresses at rest may be most of."""
-    at, size = path.structure.placed(path.state, 1.0), path.structure.forces(path.state, 1.0).size
+    at, size = path.structure.configuration(path.state, 1.0), path.structure.forces(path.state, 1.0).size
     states = [one.report(at)[0] for one in path.structure.contacts]
     return min(1.0, sum(one.area * one.pressure for one in states) / (size or 1.0))
 

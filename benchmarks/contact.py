@@ -1,4 +1,4 @@
-"""Prints how good contact is: strips on a plane and over a cylinder, a lying sheet, energy in motion.
+"""Prints how good contact is: strips on a plane and over a cylinder, balls, a lying sheet, energy in motion.
 
 PYTHONPATH=.:tests/helpers python benchmarks/contact.py          half a minute
 """
@@ -16,6 +16,7 @@ from contact_cases import (
     heavy_elastica,
     laid_strip,
     lying_quarter,
+    pressed_ball,
 )
 from scipy.optimize import fsolve
 
@@ -78,6 +79,17 @@ def cylinders() -> None:
     print(f"cylinder at {places}, 41 masses: {', '.join(off)} %")
 
 
+def balls() -> None:
+    for at in ((0.08, 0.08), (0.0733, 0.0867)):
+        scene = pressed_ball(at, 4e-3)
+        truth = fem_reference.solve(scene, "shell", elements=32).reactions["obstacle 1"][2]
+        found = [lattice(scene, (side, side, 2)) for side in (9, 10, 17)]
+        found += [fem_reference.solve(scene, "shell", elements=side) for side in (8, 12, 16)]
+        off = [f"{100 * (one.reactions['obstacle 1'][2] / truth - 1):+.2f} %" for one in found]
+        steps = ", ".join(str(one.iterations) for one in found)
+        print(f"ball {at}, 9, 10, 17 masses, 8, 12, 16 elements: {', '.join(off)}; factorisations {steps}")
+
+
 def lying() -> None:
     for found in (
         lattice(lying_quarter(), (17, 17, 2)),
@@ -102,5 +114,5 @@ def motion() -> None:
 
 
 if __name__ == "__main__":
-    for part in (strips, cylinders, lying, motion):
+    for part in (strips, cylinders, balls, lying, motion):
         part()

@@ -24,13 +24,14 @@ from typing import Any
 
 import numpy as np
 
+from fem_reference.discrete import tangent_planes
 from fem_reference.discrete.contact import Touching
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import weighed
 from fem_reference.shell.hyperelastic import HyperelasticElement
 from fem_reference.surface.biquadratic import AT_GAUSS
 from fem_reference.surface.constants import LAW, STRAIN, Values, by_values, constants_with, values_of
-from fem_reference.surface.location import interpolate, shares
+from fem_reference.surface.location import shares
 from fem_reference.surface.materials import stretched
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import Factor, SingularMatrixError
@@ -38,7 +39,6 @@ from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import natural_at
 from sheetbench.scenes.meaning.parameters import names_of, parameter, put, short_name
-from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-4  # of a parameter, or of 1 where it is zero
 FIELD, STATE = "elements.", ("strain", "curvature")
@@ -104,12 +104,19 @@ class SheetSensitivity:
         element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
         out = np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
-        return self.pullback(out)
+        if not self.sheet.touched_without_kinks:
+            return self.pullback(out)
+        on, _, by = self._lent(points)
+        return self.pullback(out, self.sheet.of_surface(on, np.einsum("pijc,pi->pjc", by, weights)))
 
-    def pullback(self, by_displacement: np.ndarray) -> SheetGradient:
-        """Return the derivatives of a J with ∂J/∂u (n, 3) at the nodes."""
-        sheet, given = self.sheet, np.zeros(self.sheet.size)
-        sheet.displacement(given)[:] = by_displacement
+    def _lent(self, points: np.ndarray) -> tuple[np.ndarray, ...]:
+        plan = np.asarray(points, dtype=float)
+        return tangent_planes.lent(self.sheet.plan.mesh, self.shape.vectors, plan)
+
+    def pullback(self, by_displacement: np.ndarray, more: np.ndarray | float = 0.0) -> SheetGradient:
+        """Return the derivatives of a J with ∂J/∂u (n, 3) at the nodes, and `more` ∂J/∂q (N,)."""
+        sheet, given = self.sheet, np.zeros(self.sheet.size) + more
+        sheet.displacement(given)[:] += by_displacement
         with one_blas_thread():
             solved = self._transposed.solve(sheet.reduce(self.shape, given))
             moved = -sheet.expand(self.shape, solved)
@@ -119,6 +126,9 @@ class SheetSensitivity:
 
     def pushforward(self, changes: Mapping[str, float]) -> np.ndarray:
         """Return du (n, 3) of the nodes for changes of parameters."""
+        return self.sheet.displacement(self._moved(changes))
+
+    def _moved(self, changes: Mapping[str, float]) -> np.ndarray:
         sheet, shape, rate, placed = self.sheet, self.shape, *np.zeros((2, self.sheet.size))
         with one_blas_thread():
             for name, change in changes.items():
@@ -126,12 +136,16 @@ class SheetSensitivity:
                 rate, placed = rate + change * both[0], placed + change * both[1]
             rate += self.product(placed)
             step = sheet.expand(shape, self.factor.solve(-sheet.reduce(shape, rate)))
-        return sheet.displacement(step + placed)
+        return np.asarray(step + placed)
 
     def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
-        plan = self.sheet.plan
-        return interpolate(plan.mesh, plan.elements, self.pushforward({name: 1.0}), np.asarray(points))
+        sheet, moved = self.sheet, self._moved({name: 1.0})
+        found = sheet.sample(sheet.displacement(moved), np.asarray(points))
+        if not sheet.touched_without_kinks:
+            return found
+        on, _, by = self._lent(points)
+        return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(moved)[on])
 
     def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:
         """Return λ·∂R/∂e0 or λ·∂R/∂k0 (m, 3) of λ (N,), xx, yy and xy, of one value an element."""
@@ -173,8 +187,7 @@ class SheetSensitivity:
         found = parameter(self.scene, name)
         step = STEP * (abs(found.value) or 1.0)
         at = (max(found.value - step, found.low), min(found.value + step, found.high))
-        fields = SceneFields.model_construct(**dict(self.scene))  # unchecked: nothing touches anew so near by
-        low, high = (self.scene.model_copy(update=dict(put(fields, name, value))) for value in at)
+        low, high = (put(self.scene, name, value, checked=False) for value in at)
         return (low, high), at[1] - at[0]
 
     def rates(

@@ -17,6 +17,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from lumped.lattice import Lattice
+from lumped.mid_surface import MidSurface
 from sheetbench.scenes.objects.grid import Grid
 
 SIDES = np.array([[0, 1], [1, 2], [3, 2], [0, 3]])
@@ -87,4 +89,21 @@ class CellSurface:
         out[:, curve, :, curve + 8] = crossed.swapaxes(0, 1)
         out[:, curve + 8, :, curve] = crossed.swapaxes(0, 1).swapaxes(-1, -2)
         out[:, curve + 8, :, curve + 8] = (turned + turned.swapaxes(-1, -2)).swapaxes(0, 1)
+        return out
+
+
+class CurvedSurface(MidSurface):
+    """Changes of the curved surface at plan points (k, 2): changes of the straight surface, and `by` (k, 3,
+    q, 3) times the displacements of the cells' masses `nodes` (k, q)."""
+
+    def __init__(self, lattice: Lattice, points: np.ndarray, nodes: np.ndarray, by: np.ndarray):
+        super().__init__(lattice, points, order=1)
+        self._nodes, self._by = nodes, by
+
+    def of(self, field: np.ndarray) -> np.ndarray:
+        return super().of(field) + np.einsum("kiaj,kaj->ki", self._by, field[self._nodes])
+
+    def shared(self, values: np.ndarray, size: int) -> np.ndarray:
+        out = super().shared(values, size)
+        np.add.at(out, self._nodes, np.einsum("kiaj,ki->kaj", self._by, values))
         return out

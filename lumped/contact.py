@@ -20,14 +20,17 @@ energy they take.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.cell_surface import LINEAR, CellSurface, shapes
+from lumped.cell_surface import LINEAR, CellSurface, CurvedSurface, shapes
 from lumped.items import Deformed, LatticeItem, Since
+from lumped.lattice import Lattice
 from lumped.masses import over_tributary
+from lumped.mid_surface import MidSurface
 from lumped.patch import integrate
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
@@ -121,6 +124,21 @@ class Contact(LatticeItem):
         if self.bent:
             vectors, sides = self.surface.vectors(vectors)
         return sides, near(self.obstacle, self.shares @ vectors, self.offset[of], at[1])
+
+    def curved(self, u: np.ndarray, plan: np.ndarray) -> tuple[np.ndarray, CurvedSurface]:
+        """Return displacements (k, 3) [m] at plan points (k, 2) on the curved surface, and the map of their
+        changes. Raises BadInput for points off the sheet."""
+        (nx, ny, _), lines = self._lattice.grid, self._lattice.lines
+        (column, r), (row, s) = (line.index(at) for line, at in zip(lines, plan.T, strict=True))
+        number = np.full((ny - 1) * (nx - 1), -1)
+        number[self._lattice.kept] = np.arange(len(self.nodes))
+        cell = number[row * (nx - 1) + column]
+        share, nodes = shapes(r, s)[:, 4:] * (cell >= 0)[:, None], self.nodes[cell]
+        vectors, ends = self.surface.vectors(self._rest[cell] + u[nodes])
+        by = np.einsum("kq,kqirj,ra->kiaj", share, self.surface.slopes(ends)[:, 4:], self.surface.linear)
+        straight = MidSurface(self._lattice, plan, order=1)
+        lent = np.einsum("kq,kqi->ki", share, vectors[:, 4:])
+        return straight.of(u) + lent, CurvedSurface(self._lattice, plan, nodes, by)
 
     def near(self, at: Deformed) -> Near:
         """Return the places of points (m, p) of cells beside the obstacle."""
@@ -263,7 +281,7 @@ class Contact(LatticeItem):
         touched = slope.sum(axis=(2, 3)) / (self.share * self.full[:, first])
         pressed = self._of_masses(self._positive(load))
         pressure = np.divide(pressed, area, out=np.zeros_like(area), where=area > 0.0)
-        return ContactState.of(deepest / self.thickness[:, first], touched), pressure
+        return ContactState.of(deepest / self.thickness[:, first], touched, load), pressure
 
     def table(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return masses (t, q) around its points and their weights (t, q); and (t, 10) the obstacle's place,
@@ -277,3 +295,14 @@ class Contact(LatticeItem):
         values = [*np.broadcast_to(place, (cells, len(at), 7)).T, *of_points]
         masses, weights = np.repeat(self.nodes, len(at), axis=0), np.tile(self.weights[at], (cells, 1))
         return masses, weights, np.stack(values).T.reshape(-1, 10)
+
+
+def middle(
+    contacts: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray
+) -> tuple[np.ndarray, MidSurface]:
+    """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch, if it is
+    curved, and the map of their changes. Raises BadInput for points off the sheet."""
+    if bent := [one for one in contacts if one.bent]:
+        return bent[0].curved(u, points)
+    surface = MidSurface(lattice, points)
+    return surface.of(u), surface

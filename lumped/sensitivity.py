@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import Calibration, default
+from lumped.contact import middle
 from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, Plain, of_changed
 from lumped.mid_surface import MidSurface
 from lumped.statics.problem import LatticePath, Problem
@@ -97,8 +98,9 @@ class Differentiable:
 
     def at_points(self, points: np.ndarray, names: Iterable[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Return the scene's own displacement (p, 3) at plan points (p, 2), and its derivatives by name."""
-        found = MidSurface(self.problem.assembly.lattice, points).of(self.solve({}))
-        return found, {name: self._last.moved_at(points, name) for name in names}
+        plan, problem = np.asarray(points, dtype=float), self.problem
+        found, _ = middle(problem.contacts, problem.assembly.lattice, self.solve({}), plan)
+        return found, {name: self._last.moved_at(plan, name) for name in names}
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives of J by name at the last solve's values; by_displacement: ∂J/∂u (n, 3)."""

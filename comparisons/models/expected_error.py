@@ -18,6 +18,7 @@ are not in it. No estimate is given
 - for calibrations whose answers do not converge to the sheet's, a given k or layer distance, linear answers;
 - if either answer is no stable equilibrium, or only one of them snapped;
 - if the load bends the sheet within FOLD cells of the finer grid: both grids miss the fold, and agree;
+- if a ball touches on less than a cell of the finer grid: the error depends on where in a cell it is;
 - if the estimate is above FAR: the answers may lie on different branches;
 - if the sheet stretches so far that the laws of strain differ by more (LAW);
 - if the finer lattice would have more than MOST masses in plan.
@@ -43,6 +44,7 @@ from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
+from sheetbench.scenes.objects.obstacles import Sphere
 
 FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -120,6 +122,13 @@ def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
     return NoEstimate("answers of these springs do not converge to the sheet's on finer grids")
 
 
+def touched_around_points(scene: Scene, solution: Solution, grid: Grid) -> list[str]:
+    """Return the names of the balls that a solution touches on less than a cell of a grid."""
+    cell = np.prod([length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True)])
+    bodies, states = scene.named_obstacles(), solution.contacts.items()
+    return [name for name, one in states if 0.0 < one.area < cell and isinstance(bodies[name], Sphere)]
+
+
 def expected_error(
     scene: Scene, lattice: Lattice, solution: Solution, solve: Callable[[Lattice], Solution | None]
 ) -> ExpectedError | NoEstimate:
@@ -134,6 +143,8 @@ def expected_error(
     masses = f"{finer[0]} × {finer[1]}"
     if not resolves(scene, finer):
         return NoEstimate("the load bends the sheet within a cell or two, on a finer grid too")
+    if around := ", ".join(touched_around_points(scene, solution, finer)):
+        return NoEstimate(f"{around}: touched within a cell of {masses} masses, and errors depend on where")
     fine = solve(lattice.but(grid=finer))
     if fine is None:
         return NoEstimate(f"{masses} masses take too much memory")

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference.discrete import tangent_planes
 from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
@@ -100,6 +101,10 @@ def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
     return answered(run, elements=mesh.nelements)
 
 
+def _sample(sample: Any, mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> np.ndarray:
+    return np.asarray(sample(points) + tangent_planes.lent(mesh, vectors, points)[1])
+
+
 def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
     """Return the solution of the first run; the other runs are its preparation, the last of them earliest.
     settings: added to the settings of the sheet."""
@@ -122,6 +127,9 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
     reactions |= {name: forces.sum(axis=0) for name, (_, forces) in by_items.items()}
     holding_forces += by_items.values()
     mesh = sheet.drawn(q, line if scene.actuators else None)
+    sample: Any = partial(interpolate, plan.mesh, plan.elements, sheet.middles(sheet.displacement(q)))
+    if sheet.touched_without_kinks:
+        sample = partial(_sample, sample, plan.mesh, shape.vectors)
     contacts = {run.name: run.report(shape) for run in sheet.contacts}
     if contacts:
         energies |= {"contact": sum(run.potential(shape) for run in sheet.contacts)}
@@ -130,7 +138,7 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
     return Solution(
         model=sheet.model,
         unknowns=sheet.unknowns,
-        sample=partial(interpolate, plan.mesh, plan.elements, sheet.middles(sheet.displacement(q))),
+        sample=sample,
         reactions=reactions,
         energies=energies | ({"rod": rods.energy(q, share)} if scene.actuators else {}),
         mesh=mesh,

@@ -216,4 +216,4 @@ class Touching(SheetItem):
         mean = np.where(energy > 0.0, 2.0 * energy / (load.sum(axis=3) + 1e-300), -np.inf)
         deepest = np.maximum(found.sunk[..., self.groups].max(axis=3), mean).max(axis=0)
         deepest /= self.thickness[:, first]
-        return ContactState.of(deepest, touched), pressure
+        return ContactState.of(deepest, touched, load), pressure

@@ -141,8 +141,9 @@ class Static(Creeping[StaticState, Forces]):
     def configuration(self, state: StaticState, load_factor: float) -> SheetShape:
         return self.sheet.shape(state.q, load_factor)
 
-    def restarted(self, state: StaticState) -> tuple[StaticState, float]:
-        return state, self.potential(state, 1.0)[1]
+    def restarted(self, state: StaticState, before: StaticState, beyond: float) -> tuple[StaticState, float]:
+        moved = replace(state, q=state.q + beyond * (state.q - before.q))
+        return moved, self.potential(moved, 1.0)[1]
 
     def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)

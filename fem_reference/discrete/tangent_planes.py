@@ -13,9 +13,10 @@ with the quadratic shape functions L across: all elements at a node have its tan
 from __future__ import annotations
 
 import numpy as np
-from skfem import ElementQuad2
+from skfem import ElementQuad2, MeshQuad
 
 from fem_reference.surface.biquadratic import lagrange, shape
+from fem_reference.surface.location import locate
 
 NODES = 2.0 * ElementQuad2().doflocs - 1.0  # (9, 2)
 SLOPES = shape(*NODES.T)[1]  # (2, 9, 9), of φ by r, s at nodes
@@ -63,6 +64,15 @@ def first(vectors: np.ndarray) -> np.ndarray:
         [-dyad / square, -(along * EYE + outer(d, slope)) / square + 2.0 * along * dyad / square**2]
     )
     return np.einsum("vekicd,kivj->ekicjd", by, LINEAR, optimize=True).reshape(-1, 18, 3, 18, 3)
+
+
+def lent(mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return the elements (p,) at plan points (p, 2), the change (p, 3) of the surface there by a, and the
+    change's derivatives (p, 3, 18, 3) by the elements' vectors. Raises BadInput off the mesh."""
+    on, place = locate(mesh, points)
+    share, _ = shares(*place)
+    by = np.einsum("pn,pnijc->pijc", share, first(vectors[on]))
+    return on, np.einsum("pn,pni->pi", share, corrections(vectors[on])), by
 
 
 def second(vectors: np.ndarray, pull: np.ndarray) -> np.ndarray:

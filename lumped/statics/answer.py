@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -10,8 +10,8 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.calibration import Calibration
+from lumped.contact import Contact, middle
 from lumped.lattice import Lattice
-from lumped.mid_surface import MidSurface
 from lumped.statics.balance import balance
 from lumped.statics.fields import LatticeMesh, field_mesh
 from lumped.statics.problem import LatticePath, LatticeState, Problem
@@ -53,7 +53,7 @@ def solution(
         iterations=path.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=partial(_sample, lattice, u),
+        sample=partial(_sample, problem.contacts, lattice, u),
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed)),
@@ -68,8 +68,8 @@ def solution(
     )
 
 
-def _sample(lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
-    return MidSurface(lattice, points).of(u)
+def _sample(contacts: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
+    return middle(contacts, lattice, u, points)[0]
 
 
 def _equilibrium_forces(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:

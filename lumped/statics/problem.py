@@ -309,8 +309,11 @@ class Problem(Structure[LatticeState, Residual]):
     def configuration(self, state: LatticeState, load_factor: float) -> Deformed:
         return state.u, Drive(load_factor)
 
-    def restarted(self, state: LatticeState) -> tuple[LatticeState, float]:
-        return state._replace(residual=None), self.internal(state.u, 1.0)[0]
+    def restarted(
+        self, state: LatticeState, before: LatticeState, beyond: float
+    ) -> tuple[LatticeState, float]:
+        u = state.u + beyond * (state.u - before.u)
+        return state._replace(u=u, residual=None), self.internal(u, 1.0)[0]
 
     def iterated(self, blocks: np.ndarray, near: Factor, rows: np.ndarray) -> np.ndarray | None:
         return iterated(self.system.matrix(blocks), near, rows) if self._iterates else None

@@ -16,23 +16,26 @@ UNDECIDED = 1e-6  # of the thickness, or 1e-3 of the deepest: distance of undeci
 
 @dataclass(frozen=True)
 class ContactState:
-    """Contact of a sheet with an obstacle. area: in contact [m²]. penetration: the deepest, over the
-    thickness. points: number of points, or parts of cells, in contact. undecided: number of points so close
-    to touching that either state may determine the tangent."""
+    """Contact of a sheet with an obstacle. area: in contact [m²]; pressure: its mean there [Pa].
+    penetration: the deepest, over the thickness. points: number of points, or parts of cells, in contact.
+    undecided: number of points so close to touching that either state may determine the tangent."""
 
     area: float
+    pressure: float
     penetration: Annotated[float, NUMBER(".2g", "penetration/h")]
     points: int
     undecided: int
 
     @classmethod
-    def of(cls, depth: np.ndarray, area: np.ndarray) -> ContactState:
+    def of(cls, depth: np.ndarray, area: np.ndarray, load: np.ndarray) -> ContactState:
         """Return the contact of points or parts of cells. depth: over the thickness, with δ₀, < 0 without
-        contact. area: of each in contact [m²]."""
+        contact. area: of each in contact [m²]; load: on them [N]."""
         over, touching = depth - TOUCH, depth > 0.0
         deepest = float(over.max(initial=0.0))
         near = np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)
-        return cls(float(area[touching].sum()), deepest, int(touching.sum()), int(near.sum()))
+        covered = float(area[touching].sum())
+        pressure = float(load.sum()) / covered if covered > 0.0 else 0.0
+        return cls(covered, pressure, deepest, int(touching.sum()), int(near.sum()))
 
     @property
     def notes(self) -> list[str]:

@@ -3,14 +3,17 @@
 Along a load path with stiff penalties one row of points after another comes into contact, at a few
 corrections each: Newton's method on a quadratic penalty is the primal–dual active-set method, and bending
 changes the active set slowly. So soft penalties are raised at the full load in stages of equal factors, each
-by Newton's method from the last shape with its extrapolated stresses. All stages but the last end at a
-residual small enough for a rolling contact to settle while its patch is wide. A failed stage is repeated
-with the square root of its factor. The status is the last stage's. If soft penalties fail or lead through an
-obstacle, `settle` starts again from rest with stiff ones, in load steps so short that no obstacle moves by
-more than a quarter of its radius in one.
+by Newton's method with extrapolated stresses. Under a given load a patch is k^(−1/2) deep where it touches
+around a point, k^(−2/3) along a line: from the second stage on, the shape goes as far beyond the last one as
+that depth does. All stages but the last end at a residual small enough for a rolling contact to settle while
+its patch is wide, and small beside what contact bears: a sheet that natural curvature bends may be light. A
+failed stage is repeated from the last shape itself with the square root of its factor. The status is the last
+stage's. If soft penalties fail or lead through an obstacle, `settle` starts again from rest with stiff ones,
+in load steps so short that no obstacle moves by more than a quarter of its radius in one.
 
-A penalty has the `obstacle`, the acting `share` of its stiffness, and at its points the full stiffness `full`
-(…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method `near` takes the points as `placed`.
+A penalty has the `obstacle`, the acting `share` of its stiffness, whether its patch is within cells, `bent`,
+and at its points the full stiffness `full` (…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method
+`near` takes the points as `placed`.
 """
 
 from __future__ import annotations
@@ -29,9 +32,12 @@ from sheetbench.numerics.continuation.path import Fault, LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
 LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to stage
-LOOSE, CLOSE = 0.05, 0.01  # residuals at which soft load steps end, and stages but the last
+POINT, LINE = 1 / 2, 2 / 3  # powers of 1/k that depths of patches are like
+REACH = 0.1  # largest displacement of the first linear step; longer ones lead around a round obstacle
+LOOSE, CLOSE, CLOSER = 0.05, 0.01, 3e-3  # residuals at which soft load steps end, and stages but the last
 PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
+FAR = 10.0  # sizes from rest and beyond all prescribed motions: out of reach
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
@@ -39,6 +45,15 @@ def soften(penalties: Sequence[Any], share: float) -> None:
     """Give penalties a share of their stiffness, 1 for all of it."""
     for one in penalties:
         one.share = share
+
+
+def reaches(structure: Structure[State, Forces]) -> bool:
+    """Return whether an obstacle is near enough for a structure to touch it."""
+    rest = structure.rest()
+    at, reach = structure.configuration(rest, 1.0), structure.size * (FAR + structure.gap(rest, 1.0))
+    ways = (np.linalg.norm(one.obstacle.place() - one.obstacle.position) for one in structure.contacts)
+    both = zip(structure.contacts, ways, strict=True)
+    return any(one.near(at).depth.max() > -reach - way for one, way in both)
 
 
 def require_way(path: Path[State, Forces], state: State, load_factor: float) -> None:
@@ -81,7 +96,9 @@ def stiffened(
     share = softest(structure)
     while True:  # without a `settle`, a share that fails is too soft
         soften(contacts, share)
-        path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE))
+        planes = all(math.isinf(one.obstacle.radius) for one in contacts)
+        reach = limits.first_reach if planes else min(limits.first_reach, REACH)
+        path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE, first_reach=reach))
         ended = trace(path)
         path.limits = limits
         if ended is None:
@@ -109,26 +126,37 @@ def stiffened(
     return None
 
 
+def borne_share(path: Path[State, Forces]) -> float:
+    """Return the share that contacts bear of the forces in balance, which stresses at rest may be most of."""
+    at, size = path.structure.placed(path.state, 1.0), path.structure.forces(path.state, 1.0).size
+    states = [one.report(at)[0] for one in path.structure.contacts]
+    return min(1.0, sum(one.area * one.pressure for one in states) / (size or 1.0))
+
+
 def _raised(path: Path[State, Forces], share: float) -> Fault | None:
     """Raise the penalties from a share to their full stiffness; return the fault of an earlier end."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
     path.limits = replace(path.limits, corrections=PATIENT, back=PATIENT)
-
+    within_cells = all(one.bent for one in structure.contacts)
+    power = POINT if all(one.obstacle.kind == "sphere" for one in structure.contacts) else LINE
+    before, last, borne = path.state, 0.5, borne_share(path)
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
         soften(structure.contacts, target)
-        close = CLOSE if target < 1.0 else 0.0
+        shrunk = (share / target) ** power
+        close = 0.0 if target == 1.0 else CLOSER * borne if within_cells else CLOSE
         try:
-            state, size = structure.restarted(path.state)
+            state, size = structure.restarted(path.state, before, (1.0 - shrunk) / (1.0 / last - 1.0))
             found = newton(path, Start(state, 1.0, 1.0, size), close)
             require_way(path, found[0], 1.0)
-            path.state, path.factor = found
         except LoadStepFailed as failure:
-            factor = (target / share) ** 0.5
+            factor, before = (target / share) ** 0.5, path.state
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return Fault(failure.status, f"contact could not be stiffened: {failure}")
             continue
+        before, last = path.state if within_cells else found[0], shrunk
+        path.state, path.factor = found
         if (fault := path.inspect(path)) is not None or target == 1.0:
             return fault
         share = target

@@ -51,8 +51,9 @@ class Structure(Protocol[State, Forces]):
     def configuration(self, state: State, load_factor: float) -> Any:
         """Return a state at a load factor in the form for contacts."""
 
-    def restarted(self, state: State) -> tuple[State, float]:
-        """Return a state at full load without forces of former penalties, and the size of its energy [J]."""
+    def restarted(self, state: State, before: State, beyond: float) -> tuple[State, float]:
+        """Return the shape that is beyond a state by a share of the way to it from one before, at full load,
+        without forces of former penalties, and the size of its energy [J]."""
         return state, 0.0
 
     def rest(self) -> State:

@@ -98,7 +98,7 @@ def test_what_is_near_or_no_equilibrium_says_nothing():
 
 def test_an_obstacle_that_one_model_alone_touches_is_no_other_branch(monkeypatch):
     monkeypatch.setattr("lumped.solve", None)  # nor is one looked for
-    felt = {"contacts": {"obstacle 1": ContactState(1e-6, 1e-5, 3, 0)}}
+    felt = {"contacts": {"obstacle 1": ContactState(1e-6, 1e3, 1e-5, 3, 0)}}
     found = said(0.01, fine(0.0101), bar=0.01, shell=felt)
     assert "200 % apart: obstacle 1: only one of them touches it" in found and "branch" not in found
     both = solution(SCENE, size=0.01), solution(SCENE, "shell", **felt)

@@ -137,11 +137,10 @@ def test_shell_over_a_cylinder(elements, within):
     [(8, 1.5e-4, 7.535e-4, 0.02), (12, 1.5e-4, 7.535e-4, 0.02), (8, 4e-3, 7.968e-2, 0.04)],
 )
 def test_ball_between_nodes_is_felt(elements, rise, force, within):
-    """Force of Navier's series at (73.3, 86.7) mm of a hinged sheet, and that of 32 elements; probes are on
-    the elements' own surface, and the ball is on the one without kinks."""
+    """Force of Navier's series at (73.3, 86.7) mm of a hinged sheet, and that of 32 elements."""
     solution = fem_reference.solve(pressed_ball((0.0733, 0.0867), rise), "shell", elements=elements)
     assert solution.reactions["obstacle 1"][2] == pytest.approx(force, rel=within)
-    assert solution.displacement([[0.0733, 0.0867]])[0, 2] == pytest.approx(rise, rel=2.0 * within)
+    assert solution.displacement([[0.0733, 0.0867]])[0, 2] == pytest.approx(rise, rel=5e-3)
 
 
 @pytest.mark.sweep(2)

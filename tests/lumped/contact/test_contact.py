@@ -5,6 +5,7 @@ import sys
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from cases import equilibrium
 from contact_cases import (
     CYLINDER_TIP,
     OBSTACLES,
@@ -26,11 +27,12 @@ from scipy.optimize import fsolve
 import fem_reference
 import lumped
 from lumped.actuators import Drive
+from lumped.contact import middle
 from lumped.patch import integrate
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Motion, Plane, SceneError
+from sheetbench.scenes import Motion, Plane, PointLoad, SceneError, Sphere
 from sheetbench.scenes.objects.grading import Grading
 
 TOUCHED = {**OBSTACLES, "rubbing": OBSTACLES["cylinder"].replace(friction=0.3, contact_damping=2.0)}
@@ -202,6 +204,45 @@ def test_moving_obstacle_ends_at_its_last_place():
     assert moved.reactions["x0"] == pytest.approx(placed.reactions["x0"], rel=1e-6, abs=1e-9)
 
 
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+@pytest.mark.parametrize("ball", [False, True])
+def test_pressure_integrates_to_the_force(model, ball):
+    """On a plane and around a point: the mean one over the area in contact, and a lattice's field over it."""
+    scene = pressed_ball((0.0733, 0.0867), 1.5e-3) if ball else laid_strip(0.05)
+    solution = equilibrium(scene, model, (9, 9) if ball else (21, 3), (8, 8) if ball else (10, 1))
+    found, force = solution.document()["contacts"]["obstacle 1"], solution.reactions["obstacle 1"]
+    within = 3e-4 if ball else 1e-6  # normals around a ball are not parallel
+    assert found["pressure"] * found["area"] == pytest.approx(np.linalg.norm(force), rel=within)
+    assert found["area"] < (2e-6 if ball else 0.0601)
+    if model == "lumped":
+        field, masses = solution.mesh.point_data, 2 * (64 if ball else 40)
+        each = scene.sheet.length_x * scene.sheet.length_y * field["mass_share"] / masses
+        assert field["contact_pressure"] @ each == pytest.approx(np.linalg.norm(force), rel=within)
+
+
+@pytest.mark.parametrize("far", [
+    Plane(position=(0.0, 0.0, -30.0)), Sphere(position=(0.5, 0.0, -20.0), radius=1.0),
+])  # fmt: skip
+def test_far_obstacle_changes_nothing(far):
+    """Neither a shape at rest of lattice or shell, nor a motion, nor a frequency."""
+
+    def answers(scene):
+        springs = lumped.calibrate(scene.sheet, scene.material, grid=(7, 3, 2))
+        moving = {"step": 5e-6, "every": 2e-4, "integrator": "verlet"}
+        return [
+            lumped.solve(scene, springs).displacement([[1.0, 0.05]]),
+            fem_reference.solve(scene, "shell", elements=(3, 1)).displacement([[1.0, 0.05]]),
+            np.stack([*lumped.simulate(scene, springs, 2e-3, **moving).probes.values()]),
+            lumped.modes(scene, springs, 3, about="deformed").frequencies,
+        ]
+
+    free = laid_strip(0.05, obstacles=())
+    *shapes, frequencies = zip(answers(free), answers(free.replace(obstacles=(far,))), strict=True)
+    for without, beside in shapes:
+        assert beside == pytest.approx(without, rel=1e-9, abs=1e-12)
+    assert frequencies[1] == pytest.approx(frequencies[0], rel=2e-8)  # rounding of eigenvalues
+
+
 def test_without_an_obstacle_nothing_of_contact_runs():
     """Neither at rest nor in motion, by calls that a profiler sees; with one it sees hundreds."""
     files = "lumped/contact.py", "discrete/contact.py", "continuation/stiffening.py"
@@ -265,6 +306,47 @@ def test_integral_over_a_patch_has_its_derivatives(depth, a, b, x, y, turned, ov
         assert even == pytest.approx(np.pi * depth**3 / (6.0 * np.sqrt(a * b)), rel=1e-8)
 
 
+def test_what_an_answer_has_at_points_is_on_the_surface_that_touches():
+    """Its derivatives are those of it, forwards and backwards; on a flat sheet's cells it is the bilinear."""
+    at = np.array([[0.0733, 0.0867], [0.08, 0.08], [0.16, 0.03], [0.0, 0.16], [0.091, 0.07]])
+    scene = pressed_ball((0.0733, 0.0867), 4e-3)
+    problem = build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(7, 8, 2)))
+    rng, lattice, h = np.random.default_rng(2), problem.assembly.lattice, 1e-6
+    u, step = 1e-2 * rng.normal(size=(2, *problem.loads.dead.shape))
+    ends = [middle(problem.contacts, lattice, u + sign * h * step, at)[0] for sign in (1.0, -1.0)]
+    _, change = middle(problem.contacts, lattice, u, at)
+    along, weights = (ends[0] - ends[1]) / (2 * h), rng.normal(size=(len(at), 3))
+    assert change.of(step) == pytest.approx(along, abs=1e-8 * np.abs(along).max())
+    back = float((change.shared(weights, len(u)) * step).sum())
+    assert back == pytest.approx(float((weights * along).sum()), rel=1e-7)
+    shift = np.array([0.0, 0.01, 0.02])
+    moved, _ = middle(problem.contacts, lattice, np.broadcast_to(shift, u.shape), at)
+    assert np.abs(moved - shift).max() < 1e-15
+
+
+@pytest.mark.parametrize(("model", "side"), [("lumped", 9), ("lumped", 10), ("shell", 8)])
+@pytest.mark.parametrize("at", [(0.08, 0.08), (0.0733, 0.0867)])
+def test_sheet_over_a_ball_is_where_the_ball_is(model, side, at):
+    """Of 4 mm a point sinks in by 4 µm; on cubics through masses and on the elements' own surface it was up
+    to 190 µm inside."""
+    scene = pressed_ball(at, 4e-3)
+    solution = equilibrium(scene, model, (side, side), side)
+    line, ball = 1e-3 * np.linspace(-3.0, 3.0, 31), scene.obstacles[0]
+    around = np.array(at) + np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
+    places = np.pad(around, ((0, 0), (0, 1))) + solution.displacement(around)
+    away = np.linalg.norm(places - ball.place(), axis=1).min()
+    assert away == pytest.approx(ball.radius + 1e-3, abs=6e-6)
+
+
+def test_contact_under_a_mass_is_the_lattice_under_its_force():
+    """A ball adds no error of its own: 4 mm take 3 % too little force on 9 masses, as they do without it."""
+    scene = pressed_ball((0.08, 0.08), 4e-3)
+    pressed, centre = solve(scene, (9, 9, 2)), [(0.08, 0.08)]
+    dead = PointLoad(at=(0.08, 0.08), force=(0.0, 0.0, pressed.reactions["obstacle 1"][2]))
+    loaded = solve(scene.replace(obstacles=(), loads=(dead,)), (9, 9, 2))
+    assert loaded.displacement(centre) == pytest.approx(pressed.displacement(centre), rel=1e-4, abs=1e-9)
+
+
 @pytest.mark.parametrize(("at", "rigid"), [((0.08, 0.08), 7.400e-4), ((0.0733, 0.0867), 7.535e-4)])
 @pytest.mark.parametrize("side", [9, 10, 17])
 def test_ball_is_felt_wherever_masses_are(at, rigid, side):
@@ -272,7 +354,7 @@ def test_ball_is_felt_wherever_masses_are(at, rigid, side):
     solution = solve(pressed_ball(at, 1.5e-4), (side, side, 2))
     assert solution.status is Status.CONVERGED
     assert solution.reactions["obstacle 1"][2] == pytest.approx(rigid, rel=0.03)
-    assert solution.displacement([at])[0, 2] == pytest.approx(1.5e-4, rel=0.02)
+    assert solution.displacement([at])[0, 2] == pytest.approx(1.5e-4, rel=4e-3)
 
 
 def test_residuals_of_rounding_under_a_ball_are_known_as_such():
@@ -280,7 +362,7 @@ def test_residuals_of_rounding_under_a_ball_are_known_as_such():
     left 3e-11 for 1 949 factorisations."""
     solution = solve(pressed_ball((0.08, 0.08), 1.5e-3), (10, 10, 2))
     assert solution.status is Status.CONVERGED
-    assert solution.iterations <= 40
+    assert solution.iterations <= 20
 
 
 @pytest.mark.sweep(3)
@@ -292,13 +374,21 @@ def test_cradle_is_stable_and_rocks_on_grids_of_either_parity(grid, graded):
     scene, grading = curled_sheet(), Grading(0.5, ("x0", "x1")) if graded else 0.0
     solution = solve(scene, (*grid, 2), grading)
     assert solution.status is Status.CONVERGED
-    assert solution.iterations <= 40
+    assert solution.iterations <= 30
     ends = solution.displacement([[0.0, 0.01], [0.1, 0.01]])[:, 2]
     assert ends == pytest.approx(6.013e-3, rel=1e-3)
     assert solution.reactions["obstacle 1"][2] == pytest.approx(1780.0 * 1e-6 * 9.81, rel=1e-7)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=(*grid, 2), grading=grading)
     slowest = lumped.modes(scene, springs, 1, about="deformed").frequencies[0]
     assert slowest == pytest.approx(rocking_frequency(), rel=0.03)
+
+
+def test_light_sheet_is_not_left_in_the_air():
+    """Of the forces of 41 × 9 masses its weight is less than a stage's residual: a start off the table passed
+    for an equilibrium."""
+    solution = solve(curled_sheet(), (41, 9, 2), method="consistent-membrane")
+    assert solution.status is Status.CONVERGED
+    assert solution.iterations <= 30
 
 
 @pytest.mark.parametrize("number", [pytest.param(2, marks=pytest.mark.nightly), 22, 39, 59])

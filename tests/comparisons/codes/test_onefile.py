@@ -322,4 +322,4 @@ def test_without_a_compiler_a_unit_has_its_sources_alone(tmp_path, monkeypatch, 
     assert run("calibrate", "two-edges-clamped", "--grid", "3", "--for", "fmu", "--out", str(tmp_path)) == 0
     names = zipfile.ZipFile(tmp_path / "sheet.fmu").namelist()
     assert "sources/sheet.c" in names and not any("binaries" in name for name in names)
-    assert "sources alone" in " ".join(capsys.readouterr().out.split())
+    assert "sources only" in " ".join(capsys.readouterr().out.split())

@@ -64,8 +64,8 @@ class Integrator(MotionMethod[State]):
     options : tuple of str
         Names of the user's options.
     kinks : ndarray
-        Times [s] that steps end at. Constant steps pass kinks with other kinks within a step on both sides, as
-        a densely measured history has, but not the ends of a jump.
+        Times [s] that steps end at. Constant steps pass over kinks with neighbours within a step on both
+        sides, as in a densely measured history, but end at both ends of a jump.
     """
 
     name: ClassVar[str]

@@ -96,6 +96,6 @@ def step_of(rule: Rule, h: float, u: np.ndarray, v: np.ndarray, a: np.ndarray, o
 
 
 def shifted(a: np.ndarray, algorithm: np.ndarray, h: float, before: float) -> np.ndarray:
-    """Return a' for steps of h [s] from a and its value for steps of `before` [s], 0 without any. It is a
-    after a much shorter step, as between the ends of a jump."""
+    """Return a' for steps of h [s] from a and its value for steps of `before` [s], 0 without any; a itself
+    after much shorter steps, as between the ends of a jump."""
     return a + h / before * (algorithm - a) if h <= LONGER * before else a

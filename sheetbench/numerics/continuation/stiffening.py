@@ -118,7 +118,7 @@ def stiffened(
 
 def borne_share(path: Path[State, Forces]) -> float:
     """Return the share that contacts bear of the forces in balance, which stresses at rest may be most of."""
-    at, size = path.structure.placed(path.state, 1.0), path.structure.forces(path.state, 1.0).size
+    at, size = path.structure.configuration(path.state, 1.0), path.structure.forces(path.state, 1.0).size
     states = [one.report(at)[0] for one in path.structure.contacts]
     return min(1.0, sum(one.area * one.pressure for one in states) / (size or 1.0))
 

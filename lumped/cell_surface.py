@@ -93,8 +93,8 @@ class CellSurface:
 
 
 class CurvedSurface(MidSurface):
-    """Changes of the curved surface at plan points (k, 2): changes of the straight surface, and `by` (k, 3,
-    q, 3) times the displacements of the cells' masses `nodes` (k, q)."""
+    """Linear map of a lattice's changes of displacement to changes of the curved surface at plan points. by:
+    derivatives (k, 3, q, 3) of the curves at points by the displacements of masses `nodes` (k, q)."""
 
     def __init__(self, lattice: Lattice, points: np.ndarray, nodes: np.ndarray, by: np.ndarray):
         super().__init__(lattice, points, order=1)

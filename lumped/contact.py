@@ -131,7 +131,7 @@ class Contact(LatticeItem):
         (nx, ny, _), lines = self._lattice.grid, self._lattice.lines
         (column, r), (row, s) = (line.index(at) for line, at in zip(lines, plan.T, strict=True))
         number = np.full((ny - 1) * (nx - 1), -1)
-        number[self._lattice.kept] = np.arange(len(self.nodes))
+        number[self._lattice.present_cells] = np.arange(len(self.nodes))
         cell = number[row * (nx - 1) + column]
         share, nodes = shapes(r, s)[:, 4:] * (cell >= 0)[:, None], self.nodes[cell]
         vectors, ends = self.surface.vectors(self._rest[cell] + u[nodes])

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 from importlib.util import find_spec
+from itertools import product
 from pathlib import Path
 
 import sheetbench as sb
@@ -23,9 +24,9 @@ SCENES = ("two-edges-clamped", "one-edge-clamped")
 THICKNESSES = (0.002, 0.003, 0.004, 0.006)  # m
 LOADS = (0.25, 0.5, 1.0, 2.0, 4.0)  # g/E over the scene's
 POINTS = 5  # along a side, that can be dragged
-CALLED = ("sheet_reset", "sheet_step", "sheet_set_force", "sheet_probe", "SHEET", "THREE", "SHEET_REST")
+EXPORTS = ("sheet_reset", "sheet_step", "sheet_set", "sheet_get", "SHEET", "SHEET_REST")
 COMPILER = [sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-freestanding", "-O3", "-nostdlib", "-s"]
-COMPILER += ["-Dsqrt=__builtin_sqrt", "-Wl,--no-entry", *(f"-Wl,--export={name}" for name in CALLED)]
+COMPILER += ["-Dsqrt=__builtin_sqrt", "-Wl,--no-entry", *(f"-Wl,--export={name}" for name in EXPORTS)]
 
 
 def scene_of(name: str, thickness: float) -> Scene:
@@ -41,15 +42,14 @@ def answers() -> dict[str, list[float]]:
     """Return the shell's u_z [m] of the last point by scene and thickness, at every load; null without an
     equilibrium."""
     found = {}
-    for name in SCENES:
-        for thickness in THICKNESSES:
-            scene, heights = scene_of(name, thickness), []
-            for load in LOADS:
-                weight = tuple(load * g for g in scene.gravity.acceleration)
-                shell = sb.solve(scene.replace(gravity={"acceleration": weight}), "shell", elements=8)
-                good = str(shell.status) == "converged"
-                heights.append(float(list(shell.probes.values())[-1][2]) if good else None)
-            found[f"{name} {1e3 * thickness:g}"] = heights
+    for name, thickness in product(SCENES, THICKNESSES):
+        scene = scene_of(name, thickness)
+        loaded = [scene.replace(gravity=scene.gravity.times(load)) for load in LOADS]
+        shells = [sb.solve(one, "shell", elements=8) for one in loaded]
+        found[f"{name} {1e3 * thickness:g}"] = [
+            float([*shell.probes.values()][-1][2]) if str(shell.status) == "converged" else None
+            for shell in shells
+        ]
     return found
 
 
@@ -59,21 +59,17 @@ def build(folder: Path) -> str:
     from comparisons.models.resolve import resolve
     from comparisons.models.spec import Lattice
 
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in ("index.html", "try.js", "answers.json"):
-        shutil.copy(HERE / name, folder)
+    shutil.copytree(HERE, folder, dirs_exist_ok=True)
     if find_spec("ziglang") is None:
         return "no compiler: pip install ziglang, then make docs"
-    for name in SCENES:
-        for thickness in THICKNESSES:
-            scene = scene_of(name, thickness)
-            springs = resolve(scene, Lattice(9), "springs", scene_springs=False).calibrated([scene])
-            with tempfile.TemporaryDirectory() as place:
-                texts = program(scene, springs, steps=20).texts
-                for file, more in (("sheet.h", ""), ("sheet.c", "sheet SHEET; double THREE[3];\n")):
-                    (Path(place) / file).write_text(texts[file] + more, encoding="utf-8")
-                out = (folder / f"{name}-{1e3 * thickness:g}.wasm").resolve()
-                subprocess.run([*COMPILER, "sheet.c", "-o", str(out)], cwd=place, check=True)
+    for name, thickness in product(SCENES, THICKNESSES):
+        scene, out = scene_of(name, thickness), folder.resolve() / f"{name}-{1e3 * thickness:g}.wasm"
+        springs = resolve(scene, Lattice(9), "springs", scene_springs=False).calibrated([scene])
+        texts = program(scene, springs, steps=20).texts
+        with tempfile.TemporaryDirectory() as place:
+            Path(place, "sheet.h").write_text(texts["sheet.h"], encoding="utf-8")
+            Path(place, "sheet.c").write_text(texts["sheet.c"] + "sheet SHEET;\n", encoding="utf-8")
+            subprocess.run([*COMPILER, "sheet.c", "-o", str(out)], cwd=place, check=True)
     return f"{len(SCENES) * len(THICKNESSES)} lattices"
 
 

@@ -39,7 +39,6 @@ from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import natural_at
 from sheetbench.scenes.meaning.parameters import names_of, parameter, put, short_name
-from sheetbench.scenes.objects.fields import SceneFields
 
 STEP = 1e-4  # of a parameter, or of 1 where it is zero
 FIELD, STATE = "elements.", ("strain", "curvature")
@@ -188,8 +187,7 @@ class SheetSensitivity:
         found = parameter(self.scene, name)
         step = STEP * (abs(found.value) or 1.0)
         at = (max(found.value - step, found.low), min(found.value + step, found.high))
-        fields = SceneFields.model_construct(**dict(self.scene))  # unchecked: nothing touches anew so near by
-        low, high = (self.scene.model_copy(update=dict(put(fields, name, value))) for value in at)
+        low, high = (put(self.scene, name, value, checked=False) for value in at)
         return (low, high), at[1] - at[0]
 
     def rates(

@@ -27,7 +27,7 @@ class Assembly:
     springs: the families (`lumped.springs.families`), the central `links` first. inertia: distribution of the
     mass in motion. couple: creates the actuators bound to the lattice; their rows follow the masses' rows in
     every array. rounding: relative spacing of the internal force's numbers. twisting: edges along which
-    nothing holds the director (`Scene.twisting_edges`).
+    nothing holds the director (`Scene.twisting_edges`). plan: a lattice with an equal plan, if known.
     """
 
     natural: NaturalState | None = None
@@ -40,16 +40,14 @@ class Assembly:
         weights: Weights = "tributary",
         couple: Callable[[Lattice], Coupling] | None = None,
         twisting: frozenset[str] = frozenset(),
+        plan: Lattice | None = None,
     ):
-        self.lattice: Lattice = build(
-            sheet,
-            calibration.grid,
-            calibration.layer_distance,
-            weights,
-            twisting,
-            calibration.grading,
-            calibration.per_area,
-        )
+        grid, distance, per_area = calibration.grid, calibration.layer_distance, calibration.per_area
+        if plan is None:
+            self.lattice = build(sheet, grid, distance, weights, twisting, calibration.grading, per_area)
+        else:
+            self.lattice = plan.at_distance(distance, per_area)
+        self.calibration = calibration
         # Habibi et al.'s lattice has equal masses; any other has the sheet's inertia at its edges
         self.cells = calibration.cells
         self.inertia: Distribution = "tributary" if weights == "full" else "gregory"

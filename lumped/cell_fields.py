@@ -4,7 +4,7 @@ Springs of a cell follow from its own section by the closed form of `lumped.cali
 lattice's own layer distance, so that some springs may be slightly negative here. Along edges and rims a cell
 keeps the factor f of its twisting stiffness from the lattice's own calibration, as f depends on all cells
 across a strip (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone: one
-difference with all cells changed at once gives all rates, a sparse matrix, which is made once a lattice.
+difference with all cells changed at once gives all rates, which are found once a lattice.
 
 Fields over the cells (rows, columns), from y0 to y1, each row from x0 to x1:
 
@@ -23,11 +23,10 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
-from lumped.calibration.cell_by_cell import each_cell
+from lumped.calibration.cell_by_cell import GridCells, each_cell
 from lumped.calibration.closed_form import springs_of_cells
 from lumped.masses import shares_of_layers
 from lumped.natural import grown
@@ -67,7 +66,7 @@ class CellFields:
 
     def __init__(self, scene: Scene, calibration: Calibration, assembly: Assembly):
         self.scene, self.calibration, self.assembly = scene, calibration, assembly
-        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, sp.csr_array]()
+        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, list[Rate]]()
 
     @cached_property
     def section(self) -> CellSection:
@@ -156,13 +155,15 @@ class CellFields:
 
     def _closed(self, cells: CellSection) -> Springs:
         """Return the springs of the closed form at the lattice's layer distance, some slightly negative."""
-        method, grid = self.calibration.method, self.calibration.grid
-        if method not in CLOSED:
+        if (method := self.calibration.method) not in CLOSED:
             raise BadInput(f"cells.poisson, cells.thickness: the calibration '{method}' has no closed form")
-        each = each_cell(
-            sheet_at_rest(self.scene), self.scene.material, grid, self.calibration.grading, cells
-        )
+        each = replace(self._at_rest, cells=cells, section=cells)
         return springs_of_cells(each, self.calibration.layer_distance, anyhow=True, **CLOSED[method])
+
+    @cached_property
+    def _at_rest(self) -> GridCells:
+        sheet, of = sheet_at_rest(self.scene), self.calibration
+        return each_cell(sheet, self.scene.material, of.grid, of.grading, self.section)
 
     @cached_property
     def _closed_form(self) -> Springs:
@@ -213,45 +214,27 @@ class CellFields:
     ) -> np.ndarray:
         """Return the derivatives of v·(f − f_int) by a field, of the complete lattice `assembly`; by: the
         derivatives of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
-        base, found = fields.get(name, self.base[name]), np.zeros(1)
+        base = fields.get(name, self.base[name])
+        found = np.zeros_like(base)
         if name != "density":
-            rates = self._rates(name, fields, assembly, [one.shape for one in by])
-            found = -(rates @ np.concatenate([one.ravel() for one in by])).reshape(base.shape)
+            own = (fields.keys() - {name} if name == "young" else fields.keys()) & {*OF_SECTION, *STATE}
+            if not own and name not in self._kept:
+                self._kept[name] = self._rates(name, {}, assembly)
+            rates = self._rates(name, fields, assembly) if own else self._kept[name]
+            size = self.section.per_area.size
+            by_cells = np.zeros((base.size // size, size))
+            for (cells, rate), power in zip(rates, by, strict=False):
+                values = np.einsum("qmnc,mn->cqm", rate, power[: rate.shape[1], : rate.shape[2]])
+                by_cells -= [np.bincount(cells.ravel(), of.ravel(), size) for of in values]
+            found = by_cells.T.reshape(base.shape)
         if name in ("density", "thickness") and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
             per_area = self.changed_section(fields).per_area / np.where(base > 0.0, base, 1.0)
             found = found + per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
         return found
 
-    def _rates(
-        self, name: str, fields: Fields, assembly: Assembly, shapes: list[tuple[int, ...]]
-    ) -> sp.csr_array:
-        """Return the rates of all constants, in arrays of `shapes`, by a field; the scene's own are kept."""
-        others = fields.keys() - {name} if name == "young" else fields.keys()
-        own, kept = others & {*OF_SECTION, *STATE}, self._kept
-        if own or name not in kept:
-            first, entries = 0, []
-            parts = self._made(name, fields if own else {}, assembly)
-            for (cells, rate), (m, width) in zip(parts, shapes, strict=False):
-                if rate.size and m:
-                    columns = first + width * np.arange(m)[:, None, None] + np.arange(rate.shape[2])[:, None]
-                    rows = cells[:, :, None, None] * rate.shape[3] + np.arange(rate.shape[3])
-                    of = np.nonzero(rate)
-                    entries.append((rate[of], *(np.broadcast_to(e, rate.shape)[of] for e in (rows, columns))))
-                first += m * width
-            values, *at = map(np.concatenate, zip(*entries, strict=True))
-            rates = sp.csr_array(
-                (values, tuple(at)), shape=(self.base[name].size, sum(m * n for m, n in shapes))
-            )
-            if own:
-                return rates
-            kept[name] = rates
-        return kept[name]
-
-    def _made(self, name: str, fields: Fields, assembly: Assembly) -> list[Rate]:
+    def _rates(self, name: str, fields: Fields, assembly: Assembly) -> list[Rate]:
         """Return the rates by cells and kinds of springs: linear in E, else by a central difference."""
-        if name == "density":
-            return []
         if name in STATE:
             strain, bent = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
             flat = assembly.springs
@@ -261,22 +244,16 @@ class CellFields:
                 flat = self.families_of(springs).families
             return natural_rates(assembly.lattice, flat[:3], (strain, bent), name == "curvature")
         base = fields.get(name, self.base[name])
-        ends, over = [(base, 1.0)], base
-        if name != "young":
-            step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
-            ends, over = [(base + step, 1.0), (base - step, -1.0)], 2.0 * step
-        over = np.where(over > 0.0, over, 1.0).ravel()
-        sides = [(self._of_cells({**fields, name: end}, assembly), sign) for end, sign in ends]
-        products = []
-        for parts in zip(*(side for side, _ in sides), strict=True):
-            cells, rate = (
-                parts[0][0],
-                sum(sign * constants for (_, constants), (_, sign) in zip(parts, sides, strict=True)),
-            )
-            if rate.shape[2] == RUBBER.count:
-                rate[..., LIMIT] = 0.0  # a strain
-            products.append((cells, (rate / over[cells][:, :, None])[..., None]))
-        return products
+        step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
+        ends, over = ((base,), base) if name == "young" else ((base + step, base - step), 2.0 * step)
+        sides = [self._of_cells({**fields, name: end}, assembly) for end in ends]
+        over, found = np.where(over > 0.0, over, 1.0).ravel(), []
+        for (cells, rate), *below in zip(*sides, strict=True):
+            change = rate - below[0][1] if below else rate
+            if change.shape[2] == RUBBER.count:
+                change[..., LIMIT] = 0.0  # a strain
+            found.append((cells, (change / over[cells][:, :, None])[..., None]))
+        return found
 
     def _of_cells(self, fields: Fields, assembly: Assembly) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield of each kind of springs the cells beside each, (q, m), and their shares (q, m, n) of its

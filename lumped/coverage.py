@@ -175,8 +175,8 @@ def held_columns(
     if isinstance(support, Point) and not inside.any():
         where = ", ".join(f"{at:g}" for at in support.at)
         raise BadInput(
-            f"{name}.at = [{where}]: no mass of a grid of {grid} is there; take a grid with lines through it "
-            "(lumped.calibrate: grading), or a point with a mass"
+            f"{name}.at = [{where}]: no mass of a grid of {grid} is there; take a finer one, or one with "
+            "lines through it (lumped.calibrate: grading)"
         )
     inside[np.isin(columns[:, :, 0], lattice.absent_masses)] = False
     if not inside.any():

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -45,16 +46,23 @@ from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.parameters import FIBRES, names_of, parameter, put, short_name
-from sheetbench.scenes.objects.fields import SceneFields
+from sheetbench.scenes.meaning.parameters import FIBRES, OF_LAWS, names_of, parameter, put, short_name
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
-CALIBRATED_FROM = ("young", "poisson", "thickness", *FIBRES)  # sources of the springs
+# beginnings of names of what springs follow from
+CALIBRATED_FROM: tuple[str, ...] = ("young", "poisson", "thickness", *FIBRES, *OF_LAWS, "patch", "layer")
+CALIBRATED_FROM += ("temperature", "natural.e", "natural.p")
 STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
 STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
-STEP_OF |= {"load": 1e-6, "gravity": 1e-4, "support": 1e-8, "actuator": 1e-8}
-PATCH, OBSTACLE = "patch", "obstacle"  # beginnings of names
-WEIGHTS = "gravity", "load", "mass"
+STEP_OF |= {
+    "load": 1e-6,
+    "gravity": 1e-4,
+    "support": 1e-8,
+    "actuator": 1e-8,
+    "temperature": 1e-3,
+    "poisson": 4e-6,
+}
+PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
 FIELD = "cells."
 FORCES = "forces"
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
@@ -76,8 +84,7 @@ class Plain:
         self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
         self.problem = build_problem(scene, calibration)
         self.cells = CellFields(scene, calibration, self.problem.assembly)
-        self._sides: dict[str, Sides] = {}
-        self._weights: dict[str, np.ndarray | None] = {}
+        self.constants, self._sides = calibration.constants.names(), dict[str, Sides]()
 
     @classmethod
     def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Plain:
@@ -97,15 +104,6 @@ class Plain:
         if name not in self._sides:
             self._sides[name] = both_sides(self.calibration, self.problem, name, self.calibrate)
         return self._sides[name]
-
-    def weight(self, name: str) -> np.ndarray | None:
-        """Return the derivative (n, 3) of dead loads by a parameter of theirs alone, None of another one."""
-        if name not in self._weights:
-            low, high = (side.loads for side, _ in self.sides(name)[0])
-            alone = name.startswith(WEIGHTS) and not (low.follow or high.follow)
-            rate = (high.last_dead - low.last_dead) / self.sides(name)[1]
-            self._weights[name] = rate if alone else None
-        return self._weights[name]
 
     def scaled_by(self, name: str) -> bool:
         """Return whether a parameter is E or ρ of all cells in proportion, and of nothing else."""
@@ -261,8 +259,6 @@ class Gradient(Mapping[str, Any]):
         if of.base.scaled_by(name) and field not in of.values:
             value = getattr(of.plain.scene.material, name)
             return float(np.sum(self[field] * of.field(field)) / value)
-        if not of.values and (weight := of.base.weight(name)) is not None:
-            return float(np.sum(self.by_forces * weight))
         with one_blas_thread():
             rows, moved = of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))
@@ -315,6 +311,8 @@ def both_sides(
         entry = parameter(scene, name)
         value, low, high = entry.value, entry.low, entry.high
     key = name.partition(".")[2] if name.startswith(PATCH) else name
+    if scene.obstacles and key == "thickness":  # which moves the surface that presses in
+        key = OBSTACLE
     step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
     step = share * abs(value) or step
     if step == 0.0:
@@ -322,34 +320,38 @@ def both_sides(
     sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
     for end in ends:
         if of_springs:
-            springs = calibration.with_constant(name, end)
-            sides.append((build_problem(scene, springs, previous=problem), springs))
+            side, springs = scene, calibration.with_constant(name, end)
         else:
-            side, springs = of_changed(scene, calibration, name, end, calibrate)
-            sides.append((build_problem(side, springs), springs))
+            side, springs = of_changed(scene, calibration, name, end, calibrate, name.startswith(EDGES))
+        sides.append((build_problem(side, springs, previous=problem), springs))
     return sides, ends[1] - ends[0]
 
 
 def of_changed(
-    scene: Scene, calibration: Calibration, name: str, value: float, calibrate: Calibrate | None
+    scene: Scene,
+    calibration: Calibration,
+    name: str,
+    value: float,
+    calibrate: Calibrate | None,
+    checked: bool = True,
 ) -> tuple[Scene, Calibration]:
-    """Return the scene with another value, and its springs, calibrated again if they depend on it."""
-    if name.startswith(OBSTACLE):  # unchecked: a sheet that begins on one is within it by so little
-        fields = SceneFields.model_construct(**dict(scene))
-        changed = scene.model_copy(update=dict(put(fields, name, value)))
-    else:
-        changed = put(scene, name, value)
-    if name not in CALIBRATED_FROM and not name.startswith((PATCH, "natural.e")):
-        return changed, calibration
+    """Return the scene with another value (`put`), and its springs, calibrated again if they depend
+    on it."""
+    begins_on = name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
+    changed = put(scene, name, value, checked and not begins_on)
+    grid, grading, material = calibration.grid, calibration.grading, changed.material
+    if not name.startswith(CALIBRATED_FROM):
+        if name != "density" or calibration.cells is None:
+            return changed, calibration
+        return changed, replace(calibration, cells=sections_of(changed, grid, grading))
     if calibrate is not None:
         return changed, calibrate(changed)
     if calibration.method not in MAKERS:
         raise BadInput(
             f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
         )
-    own: dict[str, Any] = {"grading": calibration.grading} if calibration.grading else {}
-    if (cells := sections_of(changed, calibration.grid, calibration.grading)) is not None:
+    own: dict[str, Any] = {"grading": grading} if grading else {}
+    if (cells := sections_of(changed, grid, grading)) is not None:
         own["cells"] = cells
     make = MAKERS[calibration.method]
-    grid, material = calibration.grid, changed.material
     return changed, calibrated_at_rest(changed, lambda sheet: make(sheet, material, grid, **own))

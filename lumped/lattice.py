@@ -18,7 +18,7 @@ are absent: they have no springs and no mass, and masses between them alone are 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, NamedTuple
 
@@ -145,6 +145,17 @@ class Lattice:
     def plan(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Masses by plan position, positions at rest, and areas of the cells."""
         return self.columns(), self.positions, self.cell_areas
+
+    def at_distance(self, layer_distance: float, per_area: np.ndarray | None) -> Lattice:
+        """Return the lattice with another distance of its layers [m], and mass per area of its cells."""
+        if layer_distance == self.layer_distance and per_area is self.per_area:
+            return self
+        by = [1.0, 1.0, layer_distance / self.layer_distance]
+        offset = self.links.offset * by
+        links = self.links._replace(offset=offset, rest_length=np.linalg.norm(offset, axis=1))
+        positions = frozen(self.positions * by)
+        own = {"layer_distance": layer_distance, "per_area": per_area}
+        return replace(self, positions=positions, links=links, **own)  # type: ignore[arg-type]
 
     def columns(self) -> np.ndarray:
         """Return the numbers of the masses by plan position, (ny, nx, layers)."""

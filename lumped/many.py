@@ -9,10 +9,9 @@ that do not end so, and others, follow the load path (`Differentiable.path`).
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -36,6 +35,7 @@ from sheetbench.scenes import AnyScene
 
 TOLERANCE = 1e-11  # of a residual, relative to the loads
 STEPS = 30
+PART = 64  # designs that a thread takes at a time
 NEAR = 1e-3  # of the loads, the residual from which on a design has a tangent of its own
 YOUNG = FIELD + "young"
 
@@ -95,28 +95,21 @@ def solve_many(
         raise BadInput(f"designs: {sorted(counts)} values: equal numbers of values are needed")
     start, count = sheet.solve({}), counts.pop()
     out, done = np.full((count, *start.shape), np.nan), np.zeros(count, dtype=bool)
-    linear = designs.keys() <= {YOUNG, FORCES} and _plain(sheet)
-    workers = workers or os.cpu_count() or 1
 
     def solved(number: int) -> Status:
-        if done[number]:
-            return Status.CONVERGED
         out[number] = np.nan
         _, path = sheet.path({name: values[number] for name, values in designs.items()}, start)
         if path.status is Status.CONVERGED:
             out[number] = path.state.u
         return path.status
 
-    with one_blas_thread(), ThreadPoolExecutor(workers) as pool:
-        if linear:
-            parts = [slice(*ends) for ends in _ends(count, workers)]
-            list(pool.map(lambda part: _solve(sheet, start, designs, part, out, done), parts))
-        return Designs(out, list(pool.map(solved, range(count))))
-
-
-def _ends(count: int, parts: int) -> list[tuple[int, int]]:
-    at = np.linspace(0, count, parts + 1).astype(int).tolist()
-    return list(pairwise(at))
+    with one_blas_thread(), ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        if designs.keys() <= {YOUNG, FORCES} and _plain(sheet):
+            solve = _together(sheet, start, designs, out, done)
+            list(pool.map(solve, [slice(at, at + PART) for at in range(0, count, PART)]))
+        others = np.flatnonzero(~done).tolist()
+        status = dict(zip(others, pool.map(solved, others), strict=True))
+    return Designs(out, [status.get(number, Status.CONVERGED) for number in range(count)])
 
 
 def _plain(sheet: Differentiable) -> bool:
@@ -128,38 +121,40 @@ def _plain(sheet: Differentiable) -> bool:
     return bool(not others and linear and flat and problem.system.band is not None)
 
 
-def _solve(
+def _together(
     sheet: Differentiable,
     start: np.ndarray,
     designs: Mapping[str, np.ndarray],
-    part: slice,
     out: np.ndarray,
     done: np.ndarray,
-) -> None:
-    """Set the displacements of a part of designs, and whether each has converged."""
+) -> Callable[[slice], None]:
+    """Return the function that sets the displacements of a part of the designs, and whether each has
+    converged."""
     problem, lattice = sheet.problem, sheet.problem.assembly.lattice
-    links, layers, middle, _ = problem.assembly.springs
-    base = sheet.base[YOUNG].ravel()
-    young = np.asarray(designs.get(YOUNG, base[None].repeat(len(out), axis=0)), dtype=float)[part]
-    factor = young.reshape(len(young), -1) / np.where(base > 0.0, base, 1.0)
+    links, *of_cells = problem.assembly.springs[:3]
+    base, kept = sheet.base[YOUNG].ravel(), np.arange(lattice.cell_areas.size)[lattice.present_cells]
     these = lattice.links_of(links.nodes)
-    stiffness = stiffness_by_cells(lattice, sheet.calibration.constants)[:, these, 0]
-    k = np.ascontiguousarray(np.einsum("qm,bqm->bm", stiffness, factor[:, lattice.links.cells[:, these]]))
-    of_present = factor[:, np.arange(base.size)[lattice.present_cells]]
-    constants = (family.constants for family in (layers, middle))  # type: ignore[attr-defined]
-    of_cells = [
-        np.ascontiguousarray(np.tile(of_present, (1, len(q) // of_present.shape[1]))[:, :, None] * q)
-        for q in constants
-    ]
-    forces = np.asarray(designs.get(FORCES, np.zeros((len(out), *start.shape))), dtype=float)[part]
-    loads = np.ascontiguousarray(forces + problem.loads.last_dead)
-    band, assembly = problem.system.band, problem.assembly
+    each = stiffness_by_cells(lattice, sheet.calibration.constants)[:, these, 0]
+    cells, band, assembly = lattice.links.cells[:, these], problem.system.band, problem.assembly
     assert band is not None
-    springs = assembly.all_families.springs
-    rounding = assembly.rounding * assembly.all_families.link_stiffness_norm * float(factor.max(initial=1.0))
     of_start, _ = banded.factored(problem.tangent(start, 1.0), band)
-    given = start, of_start, springs, k, *of_cells, loads, problem.constraints.transform_arrays, band
-    correct(*given, rounding, all_families.NO_STRESSES, out[part], done[part])
+    free, none = problem.constraints.transform_arrays, all_families.NO_STRESSES
+    given = start, of_start, assembly.all_families.springs
+
+    def solve(part: slice) -> None:
+        young = np.asarray(designs[YOUNG][part] if YOUNG in designs else base[None].repeat(len(out[part]), 0))
+        factor = young.reshape(len(young), -1) / np.where(base > 0.0, base, 1.0)
+        arrays = [np.einsum("qm,bqm->bm", each, factor[:, cells])]
+        for q in (family.constants for family in of_cells):  # type: ignore[attr-defined]
+            arrays.append(np.tile(factor[:, kept], (1, len(q) // len(kept)))[:, :, None] * q)
+        arrays.append(np.zeros_like(out[part]) + problem.loads.last_dead)
+        if FORCES in designs:
+            arrays[-1] += designs[FORCES][part]
+        rounding = assembly.rounding * assembly.all_families.link_stiffness_norm * factor.max(initial=1.0)
+        ends = free, band, float(rounding), none, out[part], done[part]
+        correct(*given, *map(np.ascontiguousarray, arrays), *ends)
+
+    return solve
 
 
 @njit

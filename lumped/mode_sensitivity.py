@@ -53,7 +53,7 @@ class ModeGradient(Mapping[str, Any]):
         if name in INERT:
             raise BadInput(f"{name}: frequencies have no derivative by it; take density or thickness")
         found = sum(by * term[name] for term, by in self._terms)
-        if not name.startswith(FIELD):
+        if not (name.startswith(FIELD) or name in self._of.base.constants):
             (low, high), over = self._of.base.sides(name)
             masses = [self._mode @ (self._inertia(*side) @ self._mode) for side in (low, high)]
             found -= self._squared * (masses[1] - masses[0]) / over

@@ -85,7 +85,7 @@ class _Natural:
     def grown(self, strain: np.ndarray) -> np.ndarray:
         """Return the stiffness by the drawn sides of springs that resist strains of the natural sides."""
         family = self.family
-        if isinstance(family, Links):
+        if isinstance(family, Links) or not strain.any():
             return family.stiffness
         grown = family.sides.copy()
         grown[..., :2] += family.sides[..., :2] @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]
@@ -126,8 +126,8 @@ class _Natural:
         by_change = by_change.swapaxes(0, 1)
         if not isinstance(self.family, SpringCells):
             return np.concatenate([np.zeros_like(by_change), by_change], axis=2)
-        by_size = self._of_stiffness(strain)
-        return np.concatenate([0.0 * by_size if curvature else by_size, by_change], axis=2)
+        none = np.zeros((1, len(by_change[0]), len(SIZE_POWERS), 3))
+        return np.concatenate([none if curvature else self._of_stiffness(strain), by_change], axis=2)
 
     def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
         """Return the rates (1, c, n, 3) of a cell's constants, by the change of its natural sides."""

@@ -22,7 +22,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, PerDirection, SpringSet
 from sheetbench.scenes.objects.grid import Grid
 from sheetbench.scenes.objects.quantities import LARGEST
-from sheetbench.scenes.objects.springs import CONSTANTS, LATTICE, DamperSet, Either
+from sheetbench.scenes.objects.springs import CONSTANTS, DamperSet, Either
 
 NEAR_EDGES = ("edge_shear", "strip_shear", "edge_coupling")
 EDGES_OWN = (*NEAR_EDGES, *(f"far_{name}" for name in NEAR_EDGES))  # constants of edges, not of cells
@@ -45,7 +45,6 @@ SIGNED = ("area", "mid_area", "mid_shear", *COUPLINGS, *MID_COUPLINGS, *EDGES_OW
 SIGNED += tuple(key for keys in UPWARD.values() for key in keys)
 ANY_SIGN = (*SIGNED, "mooney_rivlin", "yeoh_square")
 REQUIRED = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
-NO_STIFFNESS = {*LATTICE, "layer_distance"}
 Parts = tuple[np.ndarray, ...]
 NONE: Parts = (np.zeros((1, 1)),)
 
@@ -69,8 +68,10 @@ class Springs:
     def read(cls, table: SpringSet | DamperSet) -> Springs:
         """Return the constants of a table."""
         of: dict[str, Parts] = {}
-        for name, value in table:
-            if value is None or name in NO_STIFFNESS or (value == 0.0 and not name.startswith("far")):
+        given = table.model_fields_set - {"layer_distance"}
+        for name in (name for name in CONSTANTS if name in given):
+            value = getattr(table, name)
+            if value is None or (value == 0.0 and not name.startswith("far")):
                 continue
             parts = {axis: np.array(part, dtype=float, ndmin=2) for axis, part in _parts(value)}
             if name in EDGES_OWN:
@@ -129,9 +130,12 @@ class Springs:
     @cached_property
     def upward(self) -> Springs:
         """Increase of the constants from each layer to the next above, as springs of a layer."""
-        increase = {name: tuple(self.along(key, 0) for key in keys) for name, keys in UPWARD.items()}
-        parts = {name: tuple(np.broadcast_arrays(*arrays)) for name, arrays in increase.items()}
-        return Springs({name: part for name, part in parts.items() if np.any(part)}, self.layer_distance)
+        given = {name: keys for name, keys in UPWARD.items() if self.of.keys() & {*keys}}
+        increase = {name: [self.along(key, 0) for key in keys] for name, keys in given.items()}
+        of: dict[str, Parts] = {
+            name: tuple(np.broadcast_arrays(*arrays)) for name, arrays in increase.items()
+        }
+        return Springs(of, self.layer_distance)
 
     @cached_property
     def shape(self) -> tuple[int, int]:
@@ -259,9 +263,12 @@ def of_faces(springs: Springs, squares: np.ndarray) -> tuple[np.ndarray, np.ndar
 def rank_one(stiffness: Any, *strain: Any) -> np.ndarray:
     """Return the strain springs and couplings (…, 6) [N/m] (see `Springs.strains`) of energy ½ k (s·ε)² a0: k
     the stiffness (…) [N/m], s the weights (…) of ε1, ε2 and γ."""
-    x, y, shear = strain
-    products = np.broadcast_arrays(x * x, y * y, shear * shear, x * y, x * shear, y * shear)
-    return np.asarray(np.asarray(stiffness)[..., None] * np.stack(products, axis=-1))
+    weights = np.zeros((*np.broadcast_shapes(*map(np.shape, strain), np.shape(stiffness)), 3))
+    for number, of in enumerate(strain):
+        weights[..., number] = of
+    return (
+        np.asarray(stiffness)[..., None] * weights[..., [0, 1, 2, 0, 0, 1]] * weights[..., [0, 1, 2, 1, 2, 2]]
+    )
 
 
 def along_edge(axis: int, stretch: Any) -> tuple[Any, Any, float]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -29,25 +29,41 @@ from sheetbench.numerics.cache import cached, frozen
 from sheetbench.numerics.reduced_system import ReducedSystem, reduced
 from sheetbench.numerics.sparse_products import Rows, csr_arrays, product
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, tilt_axes
-from sheetbench.scenes.meaning.kinematics import bent_or_tilted, shifts
+from sheetbench.scenes.meaning.kinematics import TurnedEdge, bent_or_tilted, shifts
 from sheetbench.scenes.objects.supports import named
 
 
 @dataclass(frozen=True, eq=False)
 class Constraints:
-    """Constraints of supports and actuators. transform: (3n, m) sparse, q → u; turned: λ → g (n, 3) [m] of
-    bent rods and tilted clamps; shift: (n, 3) [m] final displacement by supports that move; holders: columns
-    of masses (m, layers) and axes held, by the support's name; held: (n, 3) bool, components that a support
-    acts on; fixed: (n, 3) bool, held components that do not depend on q."""
+    """Constraints of supports and actuators. transform: (3n, m) sparse, q → u; lattice: of the masses;
+    driven: bent rods and tilted clamps; shift: (n, 3) [m] final displacement by supports that move; holders:
+    columns of masses (m, layers) and axes held, by the support's name; held: (n, 3) bool, components that a
+    support acts on; fixed: (n, 3) bool, held components that do not depend on q."""
 
     transform: sp.csr_array
-    turned: Callable[[float], np.ndarray]
+    lattice: Lattice
+    driven: list[TurnedEdge]
     shift: np.ndarray
     holders: dict[str, tuple[np.ndarray, tuple[int, ...]]]
     held: np.ndarray
     fixed: np.ndarray
     coupling: Coupling | None = None
     _reduced: dict[tuple[MassPattern, bool], ReducedSystem] = field(default_factory=dict)
+
+    def on(self, lattice: Lattice) -> Constraints:
+        """Return the constraints for a lattice with an equal plan."""
+        return self if lattice is self.lattice else replace(self, lattice=lattice)
+
+    def turned(self, load_factor: float) -> np.ndarray:
+        """Return the part of g (n, 3) [m] by bent rods and tilted clamps."""
+        g = np.zeros_like(self.shift)
+        for edge in self.driven:
+            masses = self.holders[edge.edge][0].ravel()
+            rest = self.lattice.positions[masses]
+            g[masses] = edge.displaced(rest[:, :2], load_factor).lifted(rest[:, 2])
+        if self.coupling is not None:
+            self.coupling.follow(g)
+        return g
 
     def prescribed(self, load_factor: float) -> np.ndarray:
         """Return g (n, 3) [m] of statics, the last values of supports' motions included."""
@@ -155,25 +171,14 @@ def _constrain(
     for of_others in maps:
         transform = sp.csr_array(transform + of_others @ transform)
     transform.sort_indices()
-    driven = bent_or_tilted(supports, sheet)
-
-    def turned(load_factor: float) -> np.ndarray:
-        g = np.zeros((n, 3))
-        for edge in driven:
-            masses = holders[edge.edge][0].ravel()
-            rest = lattice.positions[masses]
-            g[masses] = edge.displaced(rest[:, :2], load_factor).lifted(rest[:, 2])
-        if coupling is not None:
-            coupling.follow(g)
-        return g
-
     shift = np.zeros((n, 3))
     for moved_support in shifts(supports):
         masses = holders[moved_support.support][0]
         for axis, distance in zip(moved_support.axes, moved_support.displacement, strict=True):
             shift[masses, axis] = distance
     frozen(fixed)
-    return Constraints(transform, turned, shift, holders, held, fixed, coupling)
+    driven = bent_or_tilted(supports, sheet)
+    return Constraints(transform, lattice, driven, shift, holders, held, fixed, coupling)
 
 
 def _last_layers(n: int, components: np.ndarray) -> sp.csr_array:

@@ -18,7 +18,7 @@ from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
 from lumped.gradient import Equilibrium
 from lumped.lattice import Lattice
-from lumped.masses import Inertia, mass_matrix, masses
+from lumped.masses import Inertia, mass_matrix
 from lumped.mid_surface import MidSurface
 from lumped.mode_sensitivity import ModeGradient
 from lumped.statics.build import build_problem
@@ -228,28 +228,14 @@ def frequency_slopes(
     scene: Scene, calibration: Calibration, parameters: Sequence[str], count: int
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Return the `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per
-    N/m].
-
-    dω²/dk = φᵀ (∂K/∂k) φ/(φᵀ M φ), with ∂K/∂k the change of the tangent at rest, which is linear in k; for
-    single frequencies (of coinciding ones it gives the slope of a mean); 0 of a motion that no spring
-    resists, and by a constant that is 0."""
-    lowest = modes(scene, calibration, count, calibration.masses)
-    weight = masses(scene, lowest.lattice, calibration.masses, calibration.cells)
-    modal = np.einsum("n,knq,knq->k", weight, lowest.shapes, lowest.shapes)
-
-    def stored(springs: Calibration) -> np.ndarray:
-        """Return φᵀ K φ of every mode, (count,)."""
-        problem = build_problem(scene, springs)
-        blocks = problem.tangent(np.zeros_like(problem.loads.dead), 0.0)
-        return np.array([np.sum(shape * problem.system.apply(blocks, shape)) for shape in lowest.shapes])
-
-    base, slopes, scale = stored(calibration), {}, 8.0 * np.pi**2 * lowest.frequencies
-    for name in parameters:
-        k = calibration.constants.value(name)
-        slopes[name] = np.zeros_like(scale)
-        if k != 0.0:  # else a fit that ends without this spring
-            squares = (stored(calibration.with_constant(name, 2.0 * k)) - base) / k / modal
-            np.divide(squares, scale, out=slopes[name], where=scale > 0.0)
+    N/m]: of coinciding ones a mean's; 0 of a motion that no spring resists, and by a constant that is 0, of
+    a spring that a fit ends without."""
+    lowest, none = modes(scene, calibration, count, calibration.masses), np.zeros(count)
+    slopes, known = {name: none.copy() for name in parameters}, calibration.constants.names()
+    for number in np.flatnonzero(lowest.frequencies):
+        gradient = lowest.gradient_of(int(number) + 1)  # type: ignore[misc]  # it is flat, without a state
+        for name in slopes.keys() & {*known}:
+            slopes[name][number] = gradient[name]
     return lowest.frequencies, slopes
 
 

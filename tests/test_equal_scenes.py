@@ -6,12 +6,28 @@ from cases import GRAVITY, OBLONG, SILICONE, sheet
 
 from sheetbench import face
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import AreaLoad, Chain, Clamped, EdgeMotion, Gravity, Material, PointLoad, Scene, load
+from sheetbench.scenes import (
+    AreaLoad,
+    Chain,
+    Clamped,
+    Curved,
+    EdgeMotion,
+    Gravity,
+    Material,
+    Natural,
+    PointLoad,
+    Scene,
+    Sheet,
+    Sphere,
+    Temperature,
+    load,
+)
 from sheetbench.scenes.objects.supports import Motion
 
 FOUR = {"elements": 4}
 ALL = {"lumped": {"grid": (9, 9, 2)}, "plate": FOUR, "shell": FOUR, "solid": {"elements": 2}}
 PLAIN, CURVED = load("two-edges-clamped"), load("curved-edge")
+TABLE = load("strip-on-table").replace(expansion=1e-4)
 YOUNG, POISSON = PLAIN.material.young, PLAIN.material.poisson
 SHEAR = YOUNG / (2.0 * (1.0 + POISSON))
 SAME = dict(young_1=YOUNG, young_2=YOUNG, poisson_12=POISSON, shear_12=SHEAR, angle=0.3)
@@ -105,6 +121,8 @@ PAIRS = {  # two scenes, models, and how far apart their answers may be
     "layers of one material": (
         with_fibres(**FIBRES, angle=0.4),
         with_fibres(**FIBRES, angle=0.4).replace(layers=[{"thickness": 1e-3}] * 3), SHEETS, 1e-8),
+    "a natural state of zero over a table": (
+        TABLE, TABLE.replace(natural=Natural(), temperature=Temperature()), ("lumped", "shell"), 1e-7),
     "an outline that is the rectangle": (
         PLAIN, PLAIN.replace(outline=AROUND), ("lumped",), 1e-9),
     "chains that meet, in either order": (rods(*MEETING), rods(*MEETING[::-1]), ("lumped", "shell"), 1e-6),
@@ -131,3 +149,19 @@ def test_two_ways_of_saying_it_have_one_answer(name, model):
     np.testing.assert_allclose(moved, u, atol=within * np.abs(u).max())
     forces, known = (sum(each.reactions.values()) for each in (found, expected))
     np.testing.assert_allclose(forces, known, atol=max(within, 1e-6) * np.abs(known).max())
+
+
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_an_obstacle_out_of_reach_changes_nothing(model):
+    """The path with soft contact led the lattice to another equilibrium, 1.3 % away."""
+    curved = Curved(edge="x0", curvature=-8.468620433950493)
+    fall = Gravity(acceleration=(3.0, 2.0, -9.0))
+    size = dict(length_x=0.07749275717740531, length_y=0.14518474657231492, thickness=0.0009480868980575017)
+    soft = Material(young=521266.37305123813, poisson=0.49, density=1000.0)
+    bare = Scene("bent", Sheet(**size), soft, fall, (curved,))
+    far = bare.replace(obstacles=(Sphere(position=(0.0, 0.0, -50.0), radius=1.0),))
+    options = {"grid": (5, 5, 2)} if model == "lumped" else {"elements": 2}
+    found, expected = (
+        face.solve(scene, model, **options).mesh.point_data["displacement"] for scene in (far, bare)
+    )
+    np.testing.assert_array_equal(found, expected)

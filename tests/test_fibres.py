@@ -7,6 +7,7 @@ from cases import calibrated, relative, sheet
 import fem_reference
 import lumped
 import lumped.plies
+from comparisons.codes.setup import setup
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from fem_reference.surface import plies
@@ -253,6 +254,14 @@ def test_a_sheet_has_the_stiffnesses_that_it_is_given_by(thickness, own):
     assert constants.per_area == pytest.approx(0.15, rel=1e-12) and scene.material.damping_rate == 2.0
     assert len(scene.layers) == (0 if "poisson" in own else 3)
     assert Scene.model_validate(scene.document()) == scene
+
+
+def test_a_fabric_is_refused_with_the_numbers_of_another_solver():
+    """A11, A22 and A66 as they are given, and A12 where there is one."""
+    for membrane, said in (({}, "10000, 10000, 1000 N/m$"), ({"coupling": 2e3}, "N/m, .* A12 = 2000 N/m$")):
+        scene = fabric(membrane=FABRIC["material"]["membrane"] | membrane)
+        with pytest.raises(SceneError, match=f"Newton's Style3D solver takes tri_aniso_ke = .*{said}"):
+            setup(scene, "newton")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Tables of a program in C: numbers, sparse matrices, values over time, rows that are alike once."""
+"""Tables of a program in C: arrays, sparse matrices, curves over time, tables of distinct rows."""
 
 from __future__ import annotations
 
@@ -10,83 +10,64 @@ import numpy as np
 
 from sheetbench.scenes.objects.tables import OverTime
 
+PRECISIONS: dict[str, tuple[str, Any]] = {"double": ("double", np.float64), "single": ("float", np.float32)}
+BRACES = str.maketrans("[]", "{}", " ")
+WHOLE = {1: "unsigned char", 2: "unsigned short", 4: "int"}  # types by their bytes
+
 
 class Tables:
-    """C's tables and names, with numbers of a type, as they are added. text: lines; knots, firsts: of values
-    over time, {time, value, slope after, slope before}, and where each begins."""
+    """Tables in C. lines: of source; sizes: lengths of tables, by the plural of their names, and other whole
+    numbers; knots, starts: of curves, {from, coefficients}, and the first of each."""
 
-    def __init__(self, real: str):
-        self.real = real
-        self.text: list[str] = []
+    def __init__(self, precision: str):
+        self.real, self.rounded = PRECISIONS[precision]
+        self.lines: list[str] = []
+        self.sizes: dict[str, int] = {}
         self.knots: list[list[float]] = []
-        self.firsts = [0]
+        self.starts = [0]
 
-    def number(self, x: float) -> str:
-        """Return a literal."""
-        text = repr(float(x)) if self.real == "double" else f"{float(np.float32(x)):.9g}"
-        text += "" if set(text) & set(".en") else ".0"
-        return text if self.real == "double" else text + "f"
-
-    def values(self, values: Any, integers: bool) -> str:
-        """Return an initialiser."""
-        if np.ndim(values):
-            return "{" + ",".join(self.values(each, integers) for each in values) + "}"
-        return str(int(values)) if integers else self.number(values)
-
-    def add(self, name: str, values: Any, kind: str | None = None, storage: str = "static ") -> None:
-        """Add a table; kind: of whole numbers, the smallest that holds them where it is "" ."""
+    def add(self, name: str, values: Any, kind: str = "", storage: str = "static ") -> None:
+        """Add a table, of the smallest type of whole numbers unless given one."""
         values = np.asarray(values)
-        if kind == "":
-            kind = smallest(values.max(initial=0))
+        self.sizes[f"{name}S"] = len(values)
         if not values.size:
-            values = np.zeros([max(1, n) for n in values.shape])
+            values = np.zeros([max(1, n) for n in values.shape], values.dtype)
+        if values.dtype.kind == "f":
+            values, kind = values if kind == "double" else values.astype(self.rounded), kind or "real"
+        else:
+            values, kind = values.astype(int), kind or WHOLE[np.min_scalar_type(values.max()).itemsize]
         shape = "".join(f"[{n}]" for n in values.shape)
-        text = self.values(values, kind is not None)
-        self.text.append(f"{storage}const {kind or 'real'} {name}{shape} = {text};")
+        self.lines.append(f"{storage}const {kind} {name}{shape} = {str(values.tolist()).translate(BRACES)};")
 
-    def define(self, **numbers: int) -> None:
-        """Add numbers by name."""
-        self.text += [f"#define {name} {int(value)}" for name, value in numbers.items()]
-
-    def sparse(self, name: str, rows: Any) -> None:
-        """Add a sparse matrix in compressed rows: starts of rows, columns and values of entries."""
+    def add_sparse(self, name: str, rows: Any) -> None:
+        """Add a sparse matrix: starts of its rows, columns and values of entries."""
         import scipy.sparse as sp
 
         rows = sp.csr_array(rows)
-        self.add(name, rows.indptr, "int")
-        self.add(f"{name}_AT", rows.indices, "")
+        self.add(name, rows.indptr)
+        self.add(f"{name}_AT", rows.indices)
         self.add(f"{name}_SHARE", rows.data)
 
-    def course(self, of: OverTime | None, key: str) -> int:
-        """Return the number of the first of a table's courses, a component each, −1 without a table."""
-        if of is None:
-            return -1
-        curve, times, first = of.over_time(key), np.array(of.time), len(self.firsts) - 1
-        parts = [curve.at(times), curve.slope(times), np.array([curve.slope(t, True) for t in of.time])]
-        value, after, before = (np.atleast_2d(np.transpose(part)) for part in parts)
-        for component in zip(value, after, before, strict=True):
-            self.knots += np.stack([times, *component], axis=1).tolist()
-            self.firsts.append(len(self.knots))
-        return first
-
-    def alike(self, name: str, rows: np.ndarray) -> None:
-        """Add rows that differ, by 1e-12, and which each is."""
+    def add_distinct(self, name: str, rows: np.ndarray) -> None:
+        """Add rows that differ, by 1e-12, and the number of each row among them."""
         rounded = np.array([[float(f"{x:.12e}") for x in row] for row in rows])
         _, first, which = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
         self.add(f"{name}_ROW", rows[first])
-        self.add(f"{name}_OF", which.ravel(), "")
+        self.add(f"{name}_OF", which.ravel())
+
+    def curve(self, table: OverTime | None, key: str) -> int:
+        """Return the number of the curve of a table's first component, −1 without a table."""
+        if table is None:
+            return -1
+        first, times = len(self.starts) - 1, np.array([table.time[0], *table.time])
+        pieces = table.over_time(key).pieces  # before, between and after the samples
+        for of in np.reshape(pieces, (*pieces.shape[:2], -1)).T:
+            self.knots += np.pad(np.column_stack([times, of]), ((0, 0), (0, 4 - of.shape[1]))).tolist()
+            self.starts.append(len(self.knots))
+        return first
 
 
-def smallest(most: int, least: str = "unsigned char") -> str:
-    """Return the smallest type, from the least on, of whole numbers up to the most."""
-    kinds = {"unsigned char": 255, "unsigned short": 2**16 - 1, "unsigned": 2**32 - 1}
-    return next(k for k in list(kinds)[list(kinds).index(least) :] if most <= kinds[k])
-
-
-def identifiers(prefix: str, names: Iterable[str]) -> list[str]:
-    """Return identifiers in C for names, with a number where two would be equal."""
-    found: list[str] = []
-    for n, name in enumerate(names):
-        one = f"{prefix}_{re.sub(r'[^A-Za-z0-9]+', '_', name).strip('_').upper()}"
-        found.append(one if one not in found and not one.endswith("_") else f"{one}_N{n}")
-    return found
+def identifiers(names: Iterable[str]) -> list[str]:
+    """Return names of letters, digits and underscores, with their number where two would be equal."""
+    plain = [re.sub(r"[^A-Za-z0-9]+", "_", name) for name in names]
+    return [name if name not in plain[:n] else f"{name}_{n}" for n, name in enumerate(plain)]

@@ -1,5 +1,5 @@
-"""A lattice in motion as an FMI 3.0 co-simulation unit: the program in C, a description of its values, and a
-library for the machine that writes it where it has a compiler.
+"""A lattice in motion as an FMI 3.0 co-simulation unit: the program in C, a description of its variables, and
+a library for the machine that writes it where it has a compiler.
 
 Source: Functional Mock-up Interface 3.0.1, sections 2.4, 2.5 and 4.
 """
@@ -8,14 +8,12 @@ from __future__ import annotations
 
 import functools
 import platform
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import uuid
 import zipfile
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
@@ -31,14 +29,12 @@ if TYPE_CHECKING:
 
 UNITS = {"m": 'm="1"', "s": 's="1"', "m/s2": 'm="1" s="-2"'}
 UNITS |= {"N": 'kg="1" m="1" s="-2"', "J": 'kg="1" m="2" s="-2"'}
-SOURCES = ("sheet.c", "fmi3.c")
-BUILD = """<?xml version="1.0" encoding="UTF-8"?>
-<fmiBuildDescription fmiVersion="3.0"><BuildConfiguration modelIdentifier="sheet">
+XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
+BUILD = f"""{XML}<fmiBuildDescription fmiVersion="3.0"><BuildConfiguration modelIdentifier="sheet">
 <SourceFileSet language="C99"><SourceFile name="sheet.c"/><SourceFile name="fmi3.c"/></SourceFileSet>
 </BuildConfiguration></fmiBuildDescription>
 """
-MODEL = """<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="3.0" modelName={name} instantiationToken="{{{token}}}"
+MODEL = """<fmiModelDescription fmiVersion="3.0" modelName={name} instantiationToken="{{{token}}}"
  generationTool="sheetbench">
 <CoSimulation modelIdentifier="sheet" canHandleVariableCommunicationStepSize="true"/>
 <UnitDefinitions>{units}</UnitDefinitions>
@@ -49,37 +45,22 @@ MODEL = """<?xml version="1.0" encoding="UTF-8"?>
 <ModelStructure>{structure}</ModelStructure>
 </fmiModelDescription>
 """
-VARIABLE = '<Float64 name={name} valueReference="{number}" {kind} unit="{unit}"/>'
 
 
-def description(scene: Scene, of: Program) -> str:
-    """Return the unit's modelDescription.xml, with values numbered as `scripts/fmi3.c` has them."""
-    still = scene.gravity is not None and scene.gravity.history is None
-    gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
-
-    def of_each(names: Sequence[str], letter: str) -> list[str]:
-        return [re.sub(r"\W+", "_", name) + f".{letter}{axis}" for name in names for axis in "xyz"]
-
-    inputs = [(name, "N", 0.0) for name in of_each(of.points, "F")]
-    inputs += [(f"gravity.{axis}", "m/s2", value) for axis, value in zip("xyz", gravity, strict=True)]
-    inputs += [(re.sub(r"\W+", "_", name) + ".factor", "", 1.0) for name in of.sources]
-    outputs = [(name, "m") for name in of_each(of.points, "u")]
-    outputs += [(name, "N") for name in of_each(of.bodies, "R")]
-    outputs += [(f"energy.{name}", "J") for name in ("kinetic", "elastic", "potential")]
-    rows = [("time", "s", 'causality="independent" variability="continuous"')]
-    rows += [(name, unit, f'causality="input" start="{start!r}"') for name, unit, start in inputs]
-    rows += [(name, unit, 'causality="output" initial="calculated"') for name, unit in outputs]
-    numbers = range(1 + len(inputs), len(rows))
-    variables = [
-        VARIABLE.format(name=quoteattr(name), number=number, kind=kind, unit=unit).replace(' unit=""', "")
-        for number, (name, unit, kind) in enumerate(rows)
-    ]
+def description(name: str, of: Program) -> str:
+    """Return the unit's modelDescription.xml, with variables numbered as in `scripts/fmi3.c`."""
+    kinds = ['"time" unit="s" causality="independent" variability="continuous"']
+    kinds += [f'"{x}" unit="{unit}" causality="input" start="{at!r}"' for x, (unit, at) in of.inputs.items()]
+    output = 'causality="output" initial="calculated"'
+    kinds += [f'"{x}" unit="{unit}" {output}' for x, unit in of.outputs.items()]
+    rows = [f'<Float64 valueReference="{n}" name={kind}/>' for n, kind in enumerate(kinds)]
+    numbers = range(1 + len(of.inputs), len(rows))
     entries = [f'<{kind} valueReference="{n}"/>' for kind in ("Output", "InitialUnknown") for n in numbers]
-    return MODEL.format(
-        name=quoteattr(scene.name),
+    return XML + MODEL.format(
+        name=quoteattr(name),
         token=uuid.uuid5(uuid.NAMESPACE_OID, of.texts["sheet.c"]),
         units="".join(f'<Unit name="{unit}"><BaseUnit {base}/></Unit>' for unit, base in UNITS.items()),
-        variables="\n".join(variables),
+        variables="\n".join(rows).replace(' unit=""', ""),
         structure="".join(entries),
     )
 
@@ -93,18 +74,19 @@ def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
     machine = {"amd64": "x86_64", "arm64": "aarch64"}.get(platform.machine().lower(), platform.machine())
     with tempfile.TemporaryDirectory() as folder:
         for name, text in texts.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8")
-        flags = ("-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", *SOURCES, "-lm", "-o", "out")
-        if subprocess.run([compiler, *flags], cwd=folder, capture_output=True).returncode:
+            Path(folder, name).write_text(text, encoding="utf-8")
+        flags = ["-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-o", "out", "-lm"]
+        command = [compiler, "sheet.c", "fmi3.c", *flags]
+        if subprocess.run(command, cwd=folder, capture_output=True).returncode:
             return None
-        return f"binaries/{machine}-{system[0]}/sheet{system[1]}", (Path(folder) / "out").read_bytes()
+        return f"binaries/{machine}-{system[0]}/sheet{system[1]}", Path(folder, "out").read_bytes()
 
 
 def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[dict[str, Write], list[str]]:
     """Return the file of `--for fmu`, and its missing parts. Raises BadInput as `program`."""
     of = program(scene, calibration, precision)
     sources = {name: of.texts[name] for name in ("sheet.h", "sheet.c")} | {"fmi3.c": script("fmi3.c")}
-    content: dict[str, str | bytes] = {"modelDescription.xml": description(scene, of)}
+    content: dict[str, str | bytes] = {"modelDescription.xml": description(scene.name, of)}
     content |= {f"sources/{name}": text for name, text in (sources | {"buildDescription.xml": BUILD}).items()}
     built = library(sources)
     content |= {built[0]: built[1]} if built else {}

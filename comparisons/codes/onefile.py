@@ -1,22 +1,22 @@
 """A lattice in motion as C99 without a library: sheet.h, sheet.c, and main.c that tests them by check.csv.
 
-The program is `scripts/sheet.c`, velocity Verlet as `lumped` has it, after tables that are written here:
-springs that are alike share a row of constants; of rubber and of balls and bars it has `scripts/rubber.c` and
-`scripts/patch.c`. Chains and branches are refused.
+The program is `scripts/sheet.c`, velocity Verlet as in `lumped`, with tables written here; `scripts/rubber.c`
+and `scripts/patch.c` are added for rubber, balls and bars. Chains and branches are refused.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from string import Template
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 import lumped
-from comparisons.codes.c_tables import Tables, identifiers, smallest
+from comparisons.codes.c_tables import PRECISIONS, WHOLE, Tables, identifiers
 from comparisons.codes.files import script
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Write
@@ -31,21 +31,18 @@ from sheetbench.sources import version
 if TYPE_CHECKING:
     from lumped import Calibration, State, System
 
-PRECISIONS: dict[str, tuple[str, Any]] = {"double": ("double", np.float64), "single": ("float", np.float32)}
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
-LARGEST = 1.0  # strain of a spring in a run that is one, but of rubber
-NONE = 255  # no second source
+LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
 
 
-@dataclass(frozen=True)
-class Program:
-    """texts: the files by name; points, bodies, sources: names of its inputs and outputs; step: [s]."""
+class Program(NamedTuple):
+    """texts: the files by name; inputs: unit and start of each, by their numbers in C; outputs: units; step:
+    [s]."""
 
     texts: dict[str, str]
-    points: list[str]
-    bodies: list[str]
-    sources: list[str]
+    inputs: dict[str, tuple[str, float]]
+    outputs: dict[str, str]
     step: float
 
 
@@ -55,101 +52,132 @@ def program(
     """Return a scene's lattice in motion as a program in C, with the longest of some steps whose run of so
     many of them succeeds. Raises BadInput for features that the program lacks, and if no run succeeds."""
     require_choice("--precision", precision, tuple(PRECISIONS))
-    system, start = lumped.in_motion(scene, calibration)
-    scene = system.problem.scene
     if scene.actuators:
         own = ", ".join(scene.named_actuators())
         raise BadInput(f"--for c: actuators: {own} bring equations of their own; not in the C program")
-    system.assembly.require_energy()
     require_no_branches(scene.material, "the C program")
-    limit = lumped.step_limit(system, start.u)
-    step, message, steps = limit.advised, "", FEW if system.growing is not None else steps
-    for _ in range(TRIES):
-        step = float(PRECISIONS[precision][1](step))
+    system, start = lumped.in_motion(scene, calibration)
+    system.assembly.require_energy()
+    limit, tables = lumped.step_limit(system, start.u), Tables(precision)
+    steps = FEW if system.growing is not None else steps
+    for share in SHORTER ** np.arange(TRIES):
+        step = float(tables.rounded(share * limit.advised))
         try:
-            check = checked(system, start, step, steps)
+            rows = samples(system, start, step, steps)
             break
         except lumped.StepFailed as error:
-            step, message = SHORTER * step, str(error)
+            message = str(error)
     else:
         raise BadInput(f"--for c: the check of its steps ends early: {message}")
-    tables = Tables(PRECISIONS[precision][0])
-    lattice, points, supports = system.assembly.lattice, scene.probe_points(), named(scene.supports)
-    obstacles = list(scene.named_obstacles())
-    bodies, sources = [*supports, *obstacles], [source.name for source in sources_of(scene)]
-    n = lattice.mass_count
-    tables.text.append(f"typedef {smallest(n, 'unsigned short')} entry;")
-    tables.add("SHEET_REST", lattice.positions, storage="")
+    scene, lattice, sources = system.problem.scene, system.assembly.lattice, [*sources_of(scene)]
+    bodies = [*named(scene.supports), *scene.named_obstacles()]
+    labels = {"POINT": scene.probes, "BODY": bodies, "SOURCE": [source.name for source in sources]}
+    names = {kind: identifiers(of) for kind, of in labels.items()}
+    steady = scene.gravity is not None and scene.gravity.history is None
+    gravity = scene.gravity.acceleration if scene.gravity is not None and steady else (0.0, 0.0, 0.0)
+    inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
+    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", gravity, strict=True)}
+    inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
+    outputs = {f"{point}.u{axis}": "m" for point in names["POINT"] for axis in "xyz"}
+    outputs |= {f"{body}.R{axis}": "N" for body in names["BODY"] for axis in "xyz"}
+    outputs |= {f"energy.{name}": "J" for name in ("kinetic", "elastic", "potential")}
+    (nx, ny, layers), n = lattice.grid, lattice.mass_count
+    size, middles = n + nx * ny, lattice.positions.reshape(-1, layers, 3).mean(axis=1)
+    tables.lines.append(f"typedef {WHOLE[np.min_scalar_type(size).itemsize]} entry;")
+    tables.add("SHEET_REST", np.concatenate([lattice.positions, middles]), storage="")
     add_springs(tables, system)
     add_masses(tables, system)
     for name, order in (("PROBE", 3), ("NEAR", 1)):
-        tables.sparse(name, lumped.MidSurface(lattice, points, order=order).shared(np.eye(len(points)), n).T)
-    add_loads(tables, system, calibration)
-    touching, patches = add_contact(tables, system)
-    movable = (*scene.supports, *scene.obstacles)
-    tables.add("MOTION", [tables.course(one.motion, "displacement") for one in movable], "int")
+        surface = lumped.MidSurface(lattice, scene.probe_points(), order=order)
+        shares = surface.shared(np.eye(len(scene.probes)), n)
+        tables.add_sparse(name, np.pad(shares.T[:, ::layers] * layers, ((0, 0), (n, 0))))
+    add_loads(tables, system, calibration, gravity)
+    add_contact(tables, system)
+    motions = [body.motion for body in (*scene.supports, *scene.obstacles)]
+    tables.add("MOTION", [tables.curve(motion, "displacement") for motion in motions], "int")
+    tables.add("SOURCE", [tables.curve(source.of.history, "factor") for source in sources], "int")
     grown = add_growth(tables, system)
-    tables.add("KNOT", np.reshape(tables.knots, (-1, 4)))
-    tables.add("FIRST", [*tables.firsts, 0], "int")
+    tables.add("KNOT", [*tables.knots, *np.zeros((2, 5))], "double")
+    tables.add("FIRST", [*tables.starts, 0])
+    tables.add("INPUT", [start for _, start in inputs.values()])
     tables.add("START", start.u if start.u.any() else start.u[:1])
-    tables.define(STARTS=n if start.u.any() else 1)
-    still = scene.gravity is not None and scene.gravity.history is None
-    gravity = scene.gravity.acceleration if scene.gravity is not None and still else (0.0, 0.0, 0.0)
-    every = {"POINT": list(scene.probes), "SUPPORT": list(supports), "OBSTACLE": obstacles, "SOURCE": sources}
-    numbers = {"POINTS": every["POINT"], "SUPPORTS": supports, "BODIES": bodies, "SOURCES": sources}
-    names = [f"#define SHEET_{name} {len(of)}" for name, of in numbers.items()]
-    for group, of in every.items():
-        first = len(supports) if group == "OBSTACLE" else 0
-        plain = (re.sub("^(support|obstacle) ", "", each) for each in of)
-        listed = [f"{name} = {first + k}" for k, name in enumerate(identifiers(f"SHEET_{group}", plain))]
-        names += ["enum { " + ", ".join(listed) + " };"] if listed else []
-    nx, ny, layers = lattice.grid
+    sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
+    sizes |= {"SOURCES": len(sources), "MASSES": n, "ROWS": size, "LAYERS": layers, "COLUMNS_X": nx}
+    sizes |= {"COLUMNS_Y": ny, "AIR": size if scene.air else 0, "GROWN": grown}
+    sizes["TOUCHING"] = tables.sizes["CONTACTS"]
+    numbers = [f"SHEET_{name} = {size}" for name, size in sizes.items()]
+    numbers += [f"SHEET_{kind}_{name} = {k}" for kind, of in names.items() for k, name in enumerate(of)]
     rubber = system.assembly.any_strain
-    given: dict[str, Any] = dict(
+    texts = dict(
         title=re.sub(r"[^ -~]|\*/", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
-        version=version(), real=tables.real, names="\n".join(names), step=tables.number(step), steps=steps,
-        largest=f"{limit.step:.4g}", safety=f"{step / limit.step:.3g}", masses=n, layers=layers, nx=nx, ny=ny,
-        gravity=tables.values(gravity, False), slip=SLIP_SPEED**2, libm="`sqrt`" + rubber * ", `exp`, `log`",
-        dragged=n if scene.air else 1, touching=max(1, touching), grown=max(1, grown),
-        rubber=f"#define RUBBER {int(rubber)}\n" + rubber * script("rubber.c"),
-        patch=(patches > 0) * script("patch.c"), tables="\n".join(tables.text),
-        points=", ".join(scene.probes) or "none", bodies=", ".join(bodies) or "none",
-        sources=", ".join(sources) or "none",
+        version=version(), real=tables.real, numbers=",\n  ".join(numbers), step=step, steps=steps,
+        largest=f"{limit.step:.4g}", safety=f"{step / limit.step:.3g}", slip=SLIP_SPEED**2,
+        libm="sqrt" + rubber * ", exp, log", tables="\n".join(tables.lines),
+        sizes=", ".join(f"{name} = {int(size)}" for name, size in tables.sizes.items()),
+        rubber=script("rubber.c") if rubber else "#define rubber(d, g, k, on) 0",
+        patch=script("patch.c") if tables.sizes["BLOCKS"] else "#define patch(s, of) ((void)(of), (real)0)",
+        **{kind: ", ".join(of) or "none" for kind, of in names.items()},
     )  # fmt: skip
-    texts = {name: Template(script(name)).substitute(given) for name in ("sheet.h", "sheet.c")}
-    given["size"] = f"{len(texts['sheet.c']) / 1e3:.0f}"
-    texts["README.md"] = Template(script("sheet.md")).substitute(given)
-    texts |= {"main.c": script("main.c"), "check.csv": check}
-    return Program(texts, every["POINT"], bodies, sources, step)
+    templates = {"sheet.h": "sheet.h", "sheet.c": "sheet.c", "README.md": "sheet.md"}
+    files = {name: Template(script(of)).substitute(texts) for name, of in templates.items()}
+    lines = [",".join(["time", *outputs]), *(",".join(map(repr, row)) for row in rows)]
+    files |= {"main.c": script("main.c"), "check.csv": "\n".join(lines) + "\n"}
+    return Program(files, inputs, outputs, step)
+
+
+def samples(system: System, start: State, step: float, steps: int) -> list[list[float]]:
+    """Return time [s], probes [m], forces of supports and obstacles [N] and energies [J] of some of so many
+    of `lumped`'s own steps [s]. Raises StepFailed."""
+    probes = lumped.MidSurface(system.assembly.lattice, system.scene.probe_points())
+    rows, done, state, integrator = [], 0, start, lumped.INTEGRATORS["verlet"](system, step)
+    for end in range(0, steps + 1, steps // MOMENTS):
+        while done < end:
+            advance = integrator.march(state, step, end - done)
+            state, done = advance.state, done + advance.steps
+        if not (system.assembly.any_strain or system.assembly.links.largest_strain(state.u) < LARGEST):
+            raise lumped.StepFailed(f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times its length")
+        acceleration = state.a + system.prescribed.support_acceleration(state.time)
+        energies, exerted = system.balance(replace(state, a=acceleration))
+        at = state.u, system.drive(state.time)
+        forces = [*system.problem.constraints.reactions(exerted)[0].values()]
+        forces += [item.exerted(at, state.v).sum(axis=0) for item in system.items]
+        row: list[Any] = [[state.time], probes.of(state.u).ravel(), *forces, [*energies.values()]]
+        rows.append(np.concatenate(row).tolist())
+    return rows
 
 
 def add_springs(tables: Tables, system: System) -> None:
     """Add links and cells with their dampers."""
-    parts: tuple[Any, ...] = system.assembly.springs[:4]
-    links, layers, middle, faces = parts
-    tau = 0.0 if system.scene.dampers is not None else system.scene.material.dashpot_time
-    rows = [np.column_stack([links.offset, links.rest_length, links.stiffness, tau * links.stiffness])]
-    nodes = [links.nodes]
-    if system.assembly.natural is not None:
-        rows[0][:, 3] = np.linalg.norm(links.offset, axis=1)
+    springs: tuple[Any, ...] = system.assembly.springs[:4]
+    (links, *families), material = springs, system.scene.material
+    tau = 0.0 if system.scene.dampers is not None else material.dashpot_time
+    natural = system.assembly.natural is not None  # then the length of the flat sheet
+    length = np.linalg.norm(links.offset, axis=1) if natural else links.rest_length
+    rows, nodes = [[links.offset, length, links.stiffness, tau * links.stiffness]], [links.nodes]
     if system.scene.dampers is not None:
         extra: Any = system.damping.dampers[0]
-        none = 0.0 * extra.stiffness
-        rows.append(np.column_stack([extra.offset, extra.rest_length, none, extra.stiffness]))
+        rows.append([extra.offset, extra.rest_length, 0.0 * extra.stiffness, extra.stiffness])
         nodes.append(extra.nodes)
-    cells = [np.empty((0, 23))]
-    for family in (layers, middle, faces):
-        k, is_rubber = family.constants, family.constants.shape[1] == 13
-        q = k[:, 3:4] * np.eye(7)[3] if family is faces else k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
+    tables.sizes |= {"DAMPED": tau > 0.0 or len(nodes) > 1, "RUBBER": system.assembly.any_strain}
+    tables.add("LINK", np.concatenate(nodes))
+    tables.add_distinct("LINK", np.concatenate([np.column_stack(row) for row in rows]))
+    corners, cells = [], []
+    for family in families:  # layers, mid-surface, upright faces
+        k, is_rubber, upright = family.constants, family.constants.shape[1] == 13, family is families[-1]
+        q = k[:, 3:4] * np.eye(7)[3] if upright else k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
         others = k[:, 4:13] if is_rubber else np.zeros((len(k), 9))
         cells.append(np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(k), tau), others]))
-    single, joined = len(layers), len(layers) + len(middle)
-    tables.define(LINKS=sum(map(len, nodes)), CELLS=joined + len(faces), SINGLE=single, JOINED=joined)
-    tables.define(DAMPED=tau > 0.0 or len(nodes) > 1)
-    tables.add("LINK", np.concatenate(nodes), "entry")
-    tables.alike("LINK", np.concatenate(rows))
-    tables.add("CELL", np.concatenate([each.nodes.ravel() for each in (layers, middle, faces)]), "entry")
-    tables.alike("CELL", np.concatenate(cells)[:, : 23 if system.assembly.any_strain else 14])
+        masses, several = family.nodes[:, :, 0], family.nodes.shape[2] > 1
+        corners.append(middle_of(system, masses) if several else masses)
+    tables.sizes["UPRIGHT"] = sum(map(len, cells[:-1]))
+    tables.add("CELL", np.concatenate(corners), "entry")
+    tables.add_distinct("CELL", np.concatenate(cells)[:, : 23 if system.assembly.any_strain else 14])
+
+
+def middle_of(system: System, masses: np.ndarray) -> np.ndarray:
+    """Return the rows of the middles of masses' columns."""
+    lattice = system.assembly.lattice
+    return np.asarray(lattice.mass_count + masses // lattice.grid[2])
 
 
 def add_masses(tables: Tables, system: System) -> None:
@@ -157,173 +185,108 @@ def add_masses(tables: Tables, system: System) -> None:
     velocities to momenta; masses' damping, the supports that move them, and sums of the supports' forces."""
     import scipy.sparse as sp
 
-    constraints, (p, n) = (
-        system.problem.constraints,
-        (system.assembly.lattice.grid[2], len(system.lattice_mass)),
-    )
-    both = []
-    for act in (system.accelerate, system.momentum):
-        along = [act(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
-        both.append(np.stack(along, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
-    tables.alike("COLUMN", np.concatenate(both, axis=1))
-    tables.define(RATED=bool(system.damping.rate.any()))
+    constraints, p, n = system.problem.constraints, system.assembly.lattice.grid[2], len(system.lattice_mass)
+    matrices = []
+    for apply in (system.accelerate, system.momentum):
+        columns = [apply(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
+        matrices.append(np.stack(columns, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
+    tables.add_distinct("COLUMN", np.concatenate(matrices, axis=1))
+    tables.sizes["RATED"] = bool(system.damping.rate.any())
     tables.add("RATE", system.damping.rate)
-    owner, supports = np.zeros((n, 3), int), named(system.scene.supports)
-    for moving in (False, True):  # a corner goes with the support that moves
-        for number, (name, support) in enumerate(supports.items(), start=1):
-            masses, axes = constraints.holders[name]
-            for axis in axes if (support.motion is not None) is moving else ():
-                rows = masses.ravel()
-                firm = ~constraints.fixed[rows, axis] | (axis in tilt_axes(support))
-                own = firm if moving else owner[rows, axis] == 0
-                owner[rows[own], axis] = number
-    tables.add("OWNER", owner, "")
-    rows, columns, values = constraints.summed
-    rows = np.append(rows, np.full(3 * len(system.items), rows[-1]))  # none of obstacles
-    tables.sparse("SUMMED", sp.csr_array((values, columns, rows), shape=(len(rows) - 1, owner.size)))
+    owner, supports = np.zeros((n, 3), int), enumerate(named(system.scene.supports).items(), start=1)
+    for number, (name, support) in sorted(supports, key=lambda one: one[1][1].motion is None):
+        masses, axes = constraints.holders[name]
+        for axis in axes:  # a corner goes with the support that moves
+            rows = masses.ravel()[owner[masses.ravel(), axis] == 0]
+            firm = ~constraints.fixed[rows, axis] | (axis in tilt_axes(support)) | (support.motion is None)
+            owner[rows[firm], axis] = number
+    tables.add("OWNER", owner)
+    starts, held, values = constraints.summed
+    starts = np.append(starts, np.full(3 * len(system.items), starts[-1]))  # none of obstacles
+    tables.add_sparse("SUMMED", sp.csr_array((values, held, starts), shape=(len(starts) - 1, owner.size)))
 
 
-def add_loads(tables: Tables, system: System, calibration: Calibration) -> None:
-    """Add weight, dead loads, pressures and couples of edges, and the air's drag."""
+def add_loads(tables: Tables, system: System, calibration: Calibration, gravity: Sequence[float]) -> None:
+    """Add weights per gravity [m/s²], dead loads without the weight by a gravity, pressures and moments, by
+    their histories, and the air's drag."""
+    import scipy.sparse as sp
+
     scene, lattice, drag = system.scene, system.assembly.lattice, system.damping.drag
-    down = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -1.0)), loads=())
-    tables.add("WEIGHT", -lumped.build_problem(down, calibration).loads.parts[0].dead[:, 2])
-    if scene.gravity is not None and scene.gravity.history is None:
-        scene = scene.replace(gravity=None)
-    parts = lumped.build_problem(scene, calibration).loads.parts
-    tables_of = [one.history for one in (scene.gravity, *scene.loads) if one is not None and one.history]
-    courses = [tables.course(one, "factor") for one in (None, *dict.fromkeys(tables_of))]
-    tables.define(HISTORIES=len(courses))
-    tables.add("HISTORY", courses, "int")
-    dead = [np.argwhere(part.dead) for part in parts]
-    pressed = [np.flatnonzero(part.pressure) for part in parts]
-    corners = lattice.mid_cells[:, :, 0]
-    every = {
-        "LOAD": (dead, [part.dead[tuple(at.T)] for part, at in zip(parts, dead, strict=True)]),
-        "PRESS": (
-            [corners[c] for c in pressed],
-            [p.pressure[c] for p, c in zip(parts, pressed, strict=True)],
-        ),
-        "COUPLE": ([part.columns[:, :, 0] for part in parts], [part.moments for part in parts]),
-    }
-    for name, (places, values) in every.items():
-        owners = np.repeat(np.arange(len(parts)), [len(each) for each in values])
-        tables.define(**{{"LOAD": "LOADS", "PRESS": "PRESSES", "COUPLE": "COUPLES"}[name]: len(owners)})
-        tables.add(f"{name}_AT", np.concatenate(places), "entry")
-        tables.add(name, np.concatenate(values))
-        tables.add(f"{name}_PART", owners, "unsigned char")
-    tables.define(STILL=int(sum(len(each) for each in dead[:1])))
-    cells = corners if scene.air else corners[:0]
-    tables.define(DRAG_CELLS=len(cells), DRAGGED=lattice.mass_count if scene.air else 0)
-    tables.add("DRAG_AT", cells, "entry")
-    tables.add("DRAG_SHARE", drag.shares[: len(cells)])
-    tables.add("DRAG_WEIGHT", drag.weights if scene.air else [])
-    tables.text.append(f"static const real DRAG = {tables.number(drag.coefficient)};")
+    unit = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -1.0)), loads=())
+    weight = -lumped.build_problem(unit, calibration).loads.parts[0].dead[:, 2]
+    tables.add("WEIGHT", np.pad(weight, (0, len(weight) // lattice.grid[2])))
+    parts = system.problem.loads.parts
+    histories = [one.history for one in (scene.gravity, *scene.loads) if one and one.history]
+    tables.add("LOAD", [tables.curve(one, "factor") for one in (None, *dict.fromkeys(histories))], "int")
+    dead = [part.dead - (part is parts[0]) * np.outer(weight, gravity) for part in parts]
+    tables.add_sparse("DEAD", np.reshape(dead, (len(parts), -1)))
+    tables.add_sparse("PRESSURE", [part.pressure for part in parts])
+    tables.add_sparse("MOMENT", sp.block_diag([part.moments[None] for part in parts]))
+    edges = np.concatenate([part.columns[:, :, 0] for part in parts])
+    tables.add("EDGE", np.column_stack([edges[:, 0], middle_of(system, edges[:, 1:])]), "entry")
+    tables.add("MIDDLE", middle_of(system, lattice.mid_cells[:, :, 0]), "entry")
+    tables.add("COVER", drag.shares if scene.air else [0.0])
+    tables.add("DRAG", drag.coefficient * drag.weights / lattice.grid[2] if scene.air else [0.0])
 
 
-def add_contact(tables: Tables, system: System) -> tuple[int, int]:
+def add_contact(tables: Tables, system: System) -> None:
     """Add obstacles and the points of the mid-surface that may touch them, on planes columns of masses, else
-    nine of each part of a cell. Return the numbers of points and parts."""
-    bodies, groups = [np.empty(0, int)], [np.empty((0, 9), int)]
+    nine of each block of a cell."""
+    lattice, obstacles = system.assembly.lattice, system.scene.obstacles
+    bodies, blocks = [np.empty(0, int)], [np.empty((0, 9), int)]
     columns, rows = [np.empty((0, 4), int)], [np.empty((0, 7))]
     for number, contact in enumerate(system.problem.contacts):
-        cells, at_points, p = len(contact.nodes), len(contact.basis), system.assembly.lattice.grid[2]
-        area = (
-            contact.area
-            if contact.at_corners
-            else contact.area.sum(axis=1)[:, None] / (4 * len(contact.groups))
-        )
-        k, over = contact.share * contact.full * area, contact.rounded * contact.thickness
-        offset, body = contact.offset, contact.obstacle
-        if isinstance(body, Plane):  # from where the points rest
-            rest = contact.weights @ system.assembly.lattice.positions[contact.nodes]
-            offset = offset - (rest - body.position) @ body.direction
-        shares = np.tile(contact.weights.reshape(-1, 4, p).sum(axis=2), (cells, 1))
+        cells, body, first = len(contact.nodes), contact.obstacle, sum(map(len, bodies))
+        area, offset = contact.area, contact.offset
         if not contact.at_corners:
-            first = sum(len(each) for each in bodies) + at_points * np.arange(cells)
-            groups.append((first[:, None, None] + contact.groups).reshape(-1, 9))
-        bodies.append(np.full(len(shares), number))
-        columns.append(np.repeat(contact.nodes[:, ::p], at_points, axis=0))
-        rows.append(np.column_stack([shares, *(np.ravel(each) for each in (offset, k, over))]))
-    points, parts = (sum(len(each) for each in of) for of in (bodies, groups))
-    tables.define(POINTS=points, PATCHES=parts)
-    tables.add("POINT_BODY", np.concatenate(bodies), "")
-    tables.add("POINT_AT", np.concatenate(columns), "entry")
-    tables.alike("POINT", np.concatenate(rows))
-    of = [
-        [*o.position, *o.direction, 0.0 if isinstance(o, Plane) else o.radius, o.contact_damping, o.friction]
-        for o in system.scene.obstacles
-    ]
-    tables.add("OBSTACLE", np.reshape(of, (-1, 9)))
-    if parts:
-        tables.add("PATCH", np.concatenate(groups), "unsigned")
-        (x, of_x), (y, of_y) = (np.polynomial.legendre.leggauss(count) for count in (4, 16))
-        tables.add("ALONG", np.stack([x, of_x], axis=1))
-        tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * of_y], axis=1))
-    return points, parts
+            area = area.sum(axis=1)[:, None] / (4 * len(contact.groups))
+            of_cells = first + len(contact.basis) * np.arange(cells)
+            blocks.append((of_cells[:, None, None] + contact.groups).reshape(-1, 9))
+        if isinstance(body, Plane):  # from where the points rest
+            rest = contact.weights @ lattice.positions[contact.nodes]
+            offset = offset - (rest - body.position) @ body.direction
+        values = offset, contact.share * contact.full * area, contact.rounded * contact.thickness
+        shares = contact.weights.reshape(-1, 4, lattice.grid[2]).sum(axis=2)
+        rows.append(np.column_stack([np.tile(shares, (cells, 1)), *map(np.ravel, values)]))
+        bodies.append(np.full(len(rows[-1]), number))
+        columns.append(np.repeat(contact.nodes[:, :: lattice.grid[2]], len(contact.basis), axis=0))
+    tables.add("CONTACT", np.concatenate(bodies))
+    tables.add("POINT_AT", middle_of(system, np.concatenate(columns)))
+    tables.add_distinct("POINT", np.concatenate(rows))
+    radii = [0.0 if isinstance(body, Plane) else body.radius for body in obstacles]
+    pairs = zip(obstacles, radii, strict=True)
+    shapes = [[*o.position, *o.direction, radius, o.contact_damping, o.friction] for o, radius in pairs]
+    tables.add("OBSTACLE", np.reshape(shapes, (-1, 9)))
+    tables.add("BLOCK", np.concatenate(blocks), "int")
+    if tables.sizes["BLOCKS"]:
+        (x, wx), (y, wy) = (np.polynomial.legendre.leggauss(order) for order in (4, 16))
+        tables.add("ALONG", np.stack([x, wx], axis=1))
+        tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * wy], axis=1))
 
 
 def add_growth(tables: Tables, system: System) -> int:
-    """Add the springs' measures without stress as a quadratic form of the factors of natural states, found
-    from its values. Return the number of measures, 0 of a sheet that is flat at rest."""
+    """Add the springs' measures without stress, a quadratic form of the factors of natural states: of each
+    alone, and of the products with itself and those before. Return the number of measures, 0 of a sheet that
+    is flat at rest."""
     state: Any = system.assembly.natural
-    entries, size = [], 0
-    extra = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
+    dampers = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
 
-    def measured(*sources: tuple[int, float]) -> np.ndarray:
-        factors = np.zeros(len(state.factors()))
-        for source, factor in sources:
-            factors[source] += factor
-        links, *cells = state.of(factors).springs[:4]
-        own = [np.zeros((3, len(one))) if one.natural is None else one.natural[1:] for one in cells]
-        return np.concatenate([links.natural, np.zeros(extra), *(each.T.ravel() for each in own)])
+    def measured(*factors: float) -> np.ndarray:
+        links, *cells = state.of(np.array(factors)).springs[:4]
+        parts = [np.zeros((3, len(of))) if of.natural is None else of.natural[1:] for of in cells]
+        return np.concatenate([links.natural, np.zeros(dampers), *(part.T.ravel() for part in parts)])
 
-    if state is not None:
-        count, found = len(state.factors()), []
-        one, less = ([measured((s, sign)) for s in range(count)] for sign in (1.0, -1.0))
-        for s in range(count):
-            found += [(s, NONE, 0.5 * (one[s] - less[s])), (s, s, 0.5 * (one[s] + less[s]))]
-            found += [(s, t, measured((s, 1.0), (t, 1.0)) - one[s] - one[t]) for t in range(s)]
-        size, most = len(one[0]), 1e-15 * max(float(np.abs(values).max()) for *_, values in found)
-        entries = [(n, s, t, by[n]) for s, t, by in found for n in np.flatnonzero(np.abs(by) > most)]
-    tables.define(GROWN=size, GROWTHS=len(entries))
-    tables.add("GROWTH_AT", [at for at, *_ in entries], "unsigned")
-    tables.add("GROWTH_OF", np.reshape([(s, t) for _, s, t, _ in entries], (-1, 2)), "unsigned char")
-    tables.add("GROWTH", [value for *_, value in entries])
-    courses = [tables.course(source.of.history, "factor") for source in sources_of(system.scene)]
-    tables.add("SOURCE_COURSE", courses, "int")
-    return size
-
-
-def checked(system: System, start: State, step: float, steps: int) -> str:
-    """Return the text of check.csv, probes [m], forces of supports and obstacles [N] and energies [J] in so
-    many of `lumped`'s own steps. Raises StepFailed."""
-    scene, every = system.scene, max(1, steps // MOMENTS)
-    probes = lumped.MidSurface(system.assembly.lattice, scene.probe_points())
-    largest = np.inf if system.assembly.any_strain else LARGEST
-    rows, state, integrator = [], start, lumped.INTEGRATORS["verlet"](system, step)
-    for left in (0, *[every] * (steps // every)):
-        while left:
-            advance = integrator.march(state, step, left)
-            state, left = advance.state, left - advance.steps
-        if not system.assembly.links.largest_strain(state.u) < largest:
-            raise lumped.StepFailed(
-                f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times as long as at rest"
-            )
-        placed = system.prescribed.support_acceleration(state.time)
-        energies, exerted = system.balance(replace(state, a=state.a + placed))
-        forces = [*system.problem.constraints.reactions(exerted)[0].values()]
-        at = state.u, system.drive(state.time)
-        forces += [item.exerted(at, state.v).sum(axis=0) for item in system.items]
-        row: list[Any] = [[state.time], probes.of(state.u).ravel(), *forces, [*energies.values()]]
-        rows.append(np.concatenate(row).tolist())
-    bodies = [*named(scene.supports), *scene.named_obstacles()]
-    names = [f"{name}_{axis}" for name in (*scene.probes, *bodies) for axis in "xyz"]
-    header = [re.sub("[ ,\n]", "_", name) for name in ("time", *names, *energies)]
-    return "\n".join([",".join(header), *(",".join(map(repr, row)) for row in rows)]) + "\n"
+    terms: list[np.ndarray] = []
+    units = np.eye(0 if state is None else len(state.factors()))
+    for number, unit in enumerate(units):
+        plus, minus = measured(*unit), measured(*-unit)
+        products = [measured(*(unit + other)) - plus - measured(*other) for other in units[:number]]
+        terms += [0.5 * (plus - minus), *products, 0.5 * (plus + minus)]
+    tables.add("GROWTH", terms or np.empty((0, 1)))
+    return len(terms[0]) if terms else 0
 
 
 def c_files(scene: Scene, calibration: Calibration, precision: str) -> dict[str, Write]:
     """Return the files of `--for c`."""
-    found = program(scene, calibration, precision)
-    return {name: partial(write_text, text=text) for name, text in found.texts.items()}
+    files = program(scene, calibration, precision).texts
+    return {name: partial(write_text, text=text) for name, text in files.items()}

@@ -38,7 +38,9 @@ from sheetbench.answers.table import Table, number
 from sheetbench.errors import BadInput, NoEquilibrium, require_choice
 from sheetbench.scenes import EDGES, AnyScene, Scene, SceneError, require_static, require_uniform, scene_of
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
+from sheetbench.scenes.meaning.natural_state import plies_of
 from sheetbench.scenes.meaning.words import sheet_in_words
+from sheetbench.scenes.objects.layers import resultants
 from sheetbench.scenes.objects.supports import Hinged, Point
 
 SQUARES = 8  # along the shorter side
@@ -194,8 +196,9 @@ def setup(
     """
     scene = scene_of(scene)
     require_choice("--for", code, WRITERS)
-    fabric = "; of Newton's solvers Style3D takes A11, A22 and A66 as tri_aniso_ke (docs/cells.md)"
-    reason = f"its numbers are of one isotropic material and thickness{fabric * (code == 'newton')}"
+    reason = (
+        f"its numbers are of one isotropic material and thickness{_of_fabric(scene) * (code == 'newton')}"
+    )
     require_uniform(scene, f"--for {code}", reason)
     require_flat_at_rest(scene, f"--for {code}")
     row = CODES[code]
@@ -224,6 +227,16 @@ def setup(
     except NoEquilibrium as error:
         best, missing = False, str(error)
     return CodeSetup(scene, cell, values, error_left, missing, row, squares, best and not given, given, named)
+
+
+def _of_fabric(scene: Scene) -> str:
+    """Return a clause with the numbers of Newton's Style3D solver for a homogeneous sheet, else ""."""
+    if not scene.homogeneous:
+        return ""
+    stiffness = resultants(plies_of(scene))[0] * scene.sheet.thickness
+    along, across, shear = map(number, np.diag(stiffness).tolist())
+    coupled = f", which leaves out A12 = {number(stiffness[0, 1])} N/m" * bool(stiffness[0, 1])
+    return f"; Newton's Style3D solver takes tri_aniso_ke = {along}, {across}, {shear} N/m{coupled}"
 
 
 def squares_of(grid: GridLike) -> int:

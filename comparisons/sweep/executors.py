@@ -139,7 +139,8 @@ def pool_of(scheduler: str | None) -> Iterator[Pool]:
         from distributed import Client
     except ImportError:
         raise BadInput("--scheduler: needs dask.distributed; pip install 'sheetbench[cluster]'") from None
-    for name in ("distributed", "distributed.client"):  # its warnings would repeat our messages
+    # their warnings would repeat our messages
+    for name in ("distributed", "distributed.client", "tornado.application"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     with ExitStack() as stack:
         try:

@@ -2,11 +2,14 @@
 "use strict";
 const SCENES = { "two-edges-clamped": "two edges clamped", "one-edge-clamped": "one edge clamped" };
 const YOUNG = 54.5e6, GRAVITY = 9.81, SIDE = 0.188, POINTS = 5, LAST = POINTS * POINTS - 1;
-const COLUMNS = 9, LAYERS = 2, HELD = 15; // masses along a side and across; N/m of the spring to a finger
+const COLUMNS = 9, MIDDLE = 2 * COLUMNS ** 2, ROWS = MIDDLE + COLUMNS ** 2; // masses along a side; rows of sheet.h
+const HELD = 15, LIFT = 3 * POINTS ** 2 + 2; // N/m of the spring to a finger; number of the input gravity.z
 const STOPS = { young: [0.5, 1, 2], thickness: [2, 3, 4, 6], gravity: [0, 0.5, 1, 2], damping: [0, 1, 4, 12] };
 const LOADS = [0.25, 0.5, 1, 2, 4], SPAN = 6; // of g/E; seconds of the plot
 const by = id => document.getElementById(id);
 const value = name => STOPS[name][+by(name).value];
+const three = of => [0, 1, 2].map(of);
+const dot = (x, y) => x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 const SHOWN = {
   young: v => `${(v * YOUNG / 1e6).toFixed(1)} MPa`, thickness: v => `${v} mm`,
   gravity: v => `${(v * GRAVITY).toFixed(1)} m/s²`, damping: v => v ? `${v} 1/s` : "none",
@@ -14,9 +17,10 @@ const SHOWN = {
 let program = null, answers = {}, known = null, track = [], time = 0, left = 0, before = 0;
 let grabbed = null, looking = null, turn = -0.6, tilt = 0.5, frames = 0, spent = 0, wanted = "";
 
-// numbers of the program from an address on; of its sheet, by place as in sheet.h: time, step, gravity, u, v
+// numbers of the program from an address on; of its sheet, by place as in sheet.h: time, step, inputs, u, v
 const numbers = (address, count) => new Float64Array(program.memory.buffer, address, count);
-const ofSheet = (place, count) => numbers(program.SHEET.value + 8 * place, count);
+const vectors = number => numbers(program.SHEET.value + 8 * (3 + LIFT + 3 * ROWS * number), 3 * ROWS); // u or v
+const set = (number, value) => program.sheet_set(program.SHEET.value, number, value);
 
 async function load() {
   const name = wanted = `${by("scene").value}-${value("thickness")}.wasm`;
@@ -37,101 +41,65 @@ async function load() {
 // E in proportion to every spring: gravity and forces over it and time by its root are the same motion
 function apply() {
   for (const name of Object.keys(STOPS)) by(name).nextElementSibling.textContent = SHOWN[name](value(name));
-  const load = value("gravity") / value("young");
-  const stored = answers[`${by("scene").value} ${value("thickness")}`];
+  const load = value("gravity") / value("young"), stored = answers[`${by("scene").value} ${value("thickness")}`];
   known = load === 0 ? 0 : stored ? stored[LOADS.indexOf(load)] : null;
-  if (program) ofSheet(2, 3)[2] = -GRAVITY * load;
+  if (program) set(LIFT, -GRAVITY * load);
 }
 
 function advance(seconds) {
-  const root = Math.sqrt(value("young")), step = ofSheet(1, 1)[0], masses = COLUMNS * COLUMNS * LAYERS;
+  const root = Math.sqrt(value("young")), step = 4 * numbers(program.SHEET.value, 2)[1], v = vectors(1);
+  const slower = Math.exp(-value("damping") / root * step);
   left = Math.min(left + seconds * root, 40 * root * 1e-3);
-  const slower = Math.exp(-value("damping") / root * 4 * step), v = ofSheet(5 + 3 * masses, 3 * masses);
-  for (; left > 0; left -= 4 * step, time += 4 * step / root) {
-    if (grabbed) pull();
+  for (; left > 0; left -= step, time += step / root) {
+    if (grabbed) pull(grabbed.point, HELD / scale());
     program.sheet_step(program.SHEET.value, 4);
     for (let i = 0; i < v.length; i++) v[i] *= slower;
   }
 }
-
-function force(point, three) {
-  numbers(program.THREE.value, 3).set(three);
-  program.sheet_set_force(program.SHEET.value, point, program.THREE.value);
-}
-function pull() { // a soft spring from the point to the finger, in the plane of the screen
-  const [x, y] = project(place(grabbed.point)), [right, up] = axes();
-  force(grabbed.point, right.map((r, e) => HELD * ((grabbed.x - x) * r + (y - grabbed.y) * up[e]) / scale()));
-}
-function moved(p) {
-  program.sheet_probe(program.SHEET.value, p, program.THREE.value);
-  return numbers(program.THREE.value, 3);
+function pull(point, stiffness) { // a soft spring from the point to the finger, in the plane of the screen
+  const [x, y] = project(place(point)), [right, up] = axes();
+  three(e => set(3 * point + e, stiffness && stiffness * ((grabbed.x - x) * right[e] + (y - grabbed.y) * up[e])));
 }
 function place(p) {
-  const [x, y, z] = moved(p), cell = SIDE / (POINTS - 1);
-  return [x + cell * (p % POINTS), y + cell * Math.floor(p / POINTS), z];
+  const cell = SIDE / (POINTS - 1), rest = [cell * (p % POINTS), cell * Math.floor(p / POINTS), 0];
+  return three(e => rest[e] + program.sheet_get(program.SHEET.value, 3 * p + e));
 }
 const scale = () => 0.66 * Math.min(by("sheet").clientWidth, 1.2 * by("sheet").clientHeight) / SIDE;
 function axes() { // to the right, up and towards the viewer
   const c = Math.cos(turn), s = Math.sin(turn), d = Math.cos(tilt), t = Math.sin(tilt);
   return [[c, -s, 0], [s * t, c * t, d], [s * -d, c * -d, t]];
 }
-function project(p) {
-  const q = [p[0] - SIDE / 2, p[1] - SIDE / 2, p[2] + SIDE / 20];
-  const [x, y, z] = axes().map(axis => axis[0] * q[0] + axis[1] * q[1] + axis[2] * q[2]);
-  return [by("sheet").clientWidth / 2 + scale() * x, by("sheet").clientHeight / 2 - scale() * y, z * scale()];
+function project([x, y, z]) {
+  const [right, up, near] = axes().map(axis => scale() * dot(axis, [x - SIDE / 2, y - SIDE / 2, z + SIDE / 20]));
+  return [by("sheet").clientWidth / 2 + right, by("sheet").clientHeight / 2 - up, near];
 }
-
-function canvas(id) {
-  const it = by(id), ratio = window.devicePixelRatio || 1, w = it.clientWidth, h = it.clientHeight;
-  if (it.width !== Math.round(w * ratio)) it.width = Math.round(w * ratio);
-  if (it.height !== Math.round(h * ratio)) it.height = Math.round(h * ratio);
-  const g = it.getContext("2d");
-  g.setTransform(ratio, 0, 0, ratio, 0, 0);
-  g.clearRect(0, 0, w, h);
-  return [g, w, h];
-}
-function line(g, points, colour) {
-  g.strokeStyle = colour;
-  g.beginPath();
-  for (const [x, y] of points) g.lineTo(x, y);
-  g.stroke();
-}
+const line = (points, how) => `<polyline points="${points.map(p => p.slice(0, 2)).join(" ")}" ${how}/>`;
 
 function draw() {
-  const [g] = canvas("sheet"), n = COLUMNS, count = 3 * n * n * LAYERS, at = [], cells = [];
-  const u = ofSheet(5, count), rest = numbers(program.SHEET_REST.value, count);
-  for (let i = 0; i < count; i += 3 * LAYERS) { // of a column its middle
-    at.push(project([0, 1, 2].map(e => 0.5 * (rest[i + e] + u[i + e] + rest[i + e + 3] + u[i + e + 3]))));
-  }
-  for (let k = 0; k + n + 1 < n * n; k++) {
-    if (k % n < n - 1) cells.push([k, k + 1, k + n + 1, k + n].map(c => at[c]));
-  }
+  const n = COLUMNS, u = vectors(0), rest = numbers(program.SHEET_REST.value, 3 * ROWS), at = [], cells = [];
+  for (let i = 3 * MIDDLE; i < 3 * ROWS; i += 3) at.push(project(three(e => rest[i + e] + u[i + e])));
+  for (let k = 0; k + n + 1 < n * n; k++) if (k % n < n - 1) cells.push([k, k + 1, k + n + 1, k + n, k].map(c => at[c]));
   const far = c => c[0][2] + c[1][2] + c[2][2] + c[3][2];
-  for (const c of cells.sort((a, b) => far(a) - far(b))) {
-    const [a, b] = [2, 3].map(k => [0, 1, 2].map(e => c[k][e] - c[k - 2][e])); // diagonals
-    const m = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    const light = Math.abs(0.25 * m[0] - 0.45 * m[1] + m[2]) / Math.hypot(...m) / 1.12;
-    g.fillStyle = m[2] < 0 ? `hsl(208 60% ${25 + 45 * light}%)` : `hsl(28 70% ${25 + 45 * light}%)`;
-    line(g, [...c, c[0]], "rgb(0 0 0 / 25%)");
-    g.fill();
-  }
-  g.fillStyle = "#d22";
-  g.beginPath(), g.arc(at[n * n - 1][0], at[n * n - 1][1], 5, 0, 7), g.fill();
-  if (grabbed) line(g, [project(place(grabbed.point)), [grabbed.x, grabbed.y]], "#d22");
+  const faces = cells.sort((a, b) => far(a) - far(b)).map(c => {
+    const [a, b] = [2, 3].map(k => three(e => c[k][e] - c[k - 2][e])); // diagonals
+    const m = three(e => a[(e + 1) % 3] * b[(e + 2) % 3] - a[(e + 2) % 3] * b[(e + 1) % 3]);
+    const light = Math.abs(dot(m, [0.25, -0.45, 1])) / Math.hypot(...m) / 1.12;
+    return line(c, `fill="hsl(${m[2] < 0 ? "208 60%" : "28 70%"} ${25 + 45 * light}%)" stroke="rgb(0 0 0 / 25%)"`);
+  });
+  faces.push(line([at.at(-1), at.at(-1)], 'class="corner"'));
+  if (grabbed) faces.push(line([project(place(grabbed.point)), [grabbed.x, grabbed.y]], 'class="track"'));
+  by("sheet").innerHTML = faces.join("");
 }
 
 function plot() {
-  const [g, w, h] = canvas("plot"), ink = getComputedStyle(document.body).color;
-  const levels = track.map(p => p[1]).concat(known ?? 0, 0), low = Math.min(...levels), high = Math.max(...levels);
-  const room = Math.max(high - low, 1e-4), first = Math.max(0, time - SPAN);
-  const x = t => 46 + (w - 52) * (t - first) / SPAN, y = u => 10 + (h - 24) * (high + 0.05 * room - u) / (1.1 * room);
-  g.font = "12px system-ui", g.fillStyle = ink, g.lineWidth = 1.5;
-  for (const u of [low, high]) g.fillText(`${(1e3 * u).toFixed(1)}`, 2, y(u) + 4);
-  g.fillText("corner, u_z [mm]", 50, 12);
-  line(g, track.map(([t, u]) => [x(t), y(u)]), "#d22");
-  g.setLineDash([6, 4]);
-  if (known !== null) line(g, [[46, y(known)], [w, y(known)]], ink);
-  g.setLineDash([]);
+  const { clientWidth: w, clientHeight: h } = by("plot"), levels = track.map(p => p[1]).concat(known ?? 0, 0);
+  const low = Math.min(...levels), high = Math.max(...levels), room = Math.max(high - low, 1e-4);
+  const first = Math.max(0, time - SPAN), y = u => 10 + (h - 24) * ((high - u) / room + 0.05) / 1.1;
+  const texts = [low, high].map(u => `<text x="2" y="${y(u) + 4}">${(1e3 * u).toFixed(1)}</text>`);
+  texts.push('<text x="50" y="12">corner, u_z [mm]</text>');
+  texts.push(line(track.map(([t, u]) => [46 + (w - 52) * (t - first) / SPAN, y(u)]), 'class="track"'));
+  if (known !== null) texts.push(line([[46, y(known)], [w, y(known)]], 'class="known"'));
+  by("plot").innerHTML = texts.join("");
 }
 
 function say(u) {
@@ -149,7 +117,7 @@ function frame(now) {
   const began = performance.now();
   advance(Math.min(Math.max(now - before, 0), 40) / 1e3);
   before = now;
-  const corner = moved(LAST)[2];
+  const corner = place(LAST)[2];
   track.push([time, corner]);
   while (track[0][0] < time - SPAN) track.shift();
   draw(), plot(), say(corner);
@@ -171,7 +139,7 @@ by("sheet").addEventListener("pointermove", event => {
   else if (looking) turn += (x - looking[0]) / 150, tilt = Math.min(1.5, Math.max(-0.3, tilt + (y - looking[1]) / 150)), looking = [x, y];
 });
 for (const end of ["pointerup", "pointercancel"]) by("sheet").addEventListener(end, () => {
-  if (grabbed && program) force(grabbed.point, [0, 0, 0]);
+  if (grabbed && program) pull(grabbed.point, 0);
   grabbed = looking = null;
 });
 for (const [name, words] of Object.entries(SCENES)) by("scene").add(new Option(words, name));

@@ -67,8 +67,8 @@ def first(vectors: np.ndarray) -> np.ndarray:
 
 
 def lent(mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Return the elements (p,) at plan points (p, 2), the offset P − φ at the points (p, 3), and derivatives
-    (p, 3, 18, 3) of the offset by the vectors of the elements. Raises BadInput off the mesh."""
+    """Return the elements (p,) at plan points (p, 2), the change P − φ (p, 3) of the surface there, and the
+    change's derivatives (p, 3, 18, 3) by the elements' vectors. Raises BadInput off the mesh."""
     on, place = locate(mesh, points)
     share, _ = shares(*place)
     by = np.einsum("pn,pnijc->pijc", share, first(vectors[on]))

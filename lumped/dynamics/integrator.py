@@ -64,7 +64,8 @@ class Integrator(MotionMethod[State]):
     options : tuple of str
         Names of the user's options.
     kinks : ndarray
-        Times [s] that steps end at; with constant steps kinks farther than a step from their neighbours.
+        Times [s] that steps end at. Constant steps pass over kinks with neighbours within a step on both
+        sides, as in a densely measured history, but end at both ends of a jump.
     """
 
     name: ClassVar[str]
@@ -77,7 +78,7 @@ class Integrator(MotionMethod[State]):
     def __init__(self, system: System, step: float, fixed: bool = True):
         self.system, self.step, self.adapts = system, step, not fixed
         gaps = np.diff(system.kinks, prepend=-np.inf, append=np.inf)
-        distance = np.minimum(gaps[:-1], gaps[1:])[: len(system.kinks)]
+        distance = np.maximum(gaps[:-1], gaps[1:])
         self.kinks = system.kinks if self.adapts else system.kinks[distance > step]
 
     @classmethod

@@ -60,6 +60,8 @@ NO_STRESSES: Stresses = (np.empty(0), *3 * (np.empty((0, 4)),))
 NO_INERTIA = np.empty(0)
 NAMES = tuple(dict.fromkeys(name for name, *_ in STEPS))  # of the links' families
 NUMBERS = np.array([NAMES.index(name) for name, *_ in STEPS])
+KINDS = tuple(dict.fromkeys((family, direction) for family, direction, _ in STEPS))
+KIND = np.array([KINDS.index((family, direction)) for family, direction, _ in STEPS])
 
 
 class AllFamilies:
@@ -229,8 +231,8 @@ def stiffness_by_cells(lattice: Lattice, springs: Constants) -> np.ndarray:
     links = lattice.links
 
     def shared(springs: Constants) -> np.ndarray:
-        by_step = np.stack(np.broadcast_arrays(*(springs.of_links(*family) for *family, _ in STEPS)))
-        of_cells = by_step[links.step, links.cells if by_step.shape[1] > 1 else 0]
+        by_kind = np.stack(np.broadcast_arrays(*(springs.of_links(*kind) for kind in KINDS)))
+        of_cells = by_kind[KIND[links.step], links.cells if by_kind.shape[1] > 1 else 0]
         return np.asarray(links.shares[:, :, None] * of_cells)
 
     stiffness = shared(springs)

@@ -19,6 +19,9 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import natural_of_cells
 from sheetbench.scenes.objects.orthotropy import FIBRES
 
+OF_SPRINGS = ("sheet", "material", "patches", "layers", "natural", "temperature", "actuators")
+OF_PARTS = (*OF_SPRINGS, "supports")
+
 
 def build_problem(
     scene: Scene,
@@ -37,7 +40,7 @@ def build_problem(
     weights : {"tributary", "full"}, default "tributary"
         Shares of boundary links and masses: by tributary area, or full ones (Habibi et al.).
     previous : Problem, optional
-        Problem of this scene with other springs, whose supports and loads are reused on an equal lattice.
+        Problem of a scene with an equal plan, grid and twisting edges, whose equal parts are taken over.
 
     Returns
     -------
@@ -55,15 +58,24 @@ def build_problem(
     if (calibration.cells is None or calibration.of_material) and not fibres_alone:
         instead = "calibrate with cells=lumped.sections_of(scene, grid)"
         require_alike(scene, f"the calibration {calibration.method}", instead)
-    couple = partial(Coupling, scene) if scene.actuators else None
-    assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges())
-    lines = assembly.lattice.lines
-    if (state := natural_of_cells(stretched(scene, assembly), *(line.at for line in lines))) is not None:
-        assembly.grow(state)
-    on_lattice = previous is not None and previous.assembly.lattice is assembly.lattice
-    if previous is not None and on_lattice and couple is None and assembly.natural is None:
-        return Problem(scene, assembly, previous.constraints, previous.loads, previous.items)
-    constraints = constrain(scene, assembly.lattice, assembly.coupling)
+    alike = {
+        key
+        for key in OF_PARTS
+        if previous is not None and getattr(scene, key) == getattr(previous.scene, key)
+    }
+    if previous is not None and alike >= {*OF_SPRINGS} and previous.assembly.calibration is calibration:
+        assembly = previous.assembly
+    else:
+        couple = partial(Coupling, scene) if scene.actuators else None
+        plan = None if previous is None else previous.assembly.lattice
+        assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges(), plan)
+        x, y = (line.at for line in assembly.lattice.lines)
+        if (state := natural_of_cells(stretched(scene, assembly), x, y)) is not None:
+            assembly.grow(state)
+    if previous is not None and "supports" in alike and assembly.coupling is previous.assembly.coupling:
+        constraints = previous.constraints.on(assembly.lattice)
+    else:
+        constraints = constrain(scene, assembly.lattice, assembly.coupling)
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")

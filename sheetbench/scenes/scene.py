@@ -75,7 +75,7 @@ class Scene(SceneFields, defer_build=False):
 
     def _natural_fault(self) -> str:
         """Return the reason why a natural strain or a temperature is impossible, "" if it is possible."""
-        if not (given := self.natural_by):
+        if not (given := ", ".join(self.natural_states)):
             return ""
         if self.material.law is not None:
             return f"{given}: not of rubber (law = '{self.material.law}'), whose strains it would multiply"

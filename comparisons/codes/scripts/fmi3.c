@@ -1,5 +1,4 @@
-/* The sheet as an FMI 3.0 co-simulation unit: a value's number is its place among time, forces, gravity, factors of
-   natural states, displacements, reactions, energies. */
+/* The sheet as an FMI 3.0 co-simulation unit: a value's number is its place among time, inputs and outputs. */
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -10,9 +9,7 @@
 #else
 #define API __attribute__((visibility("default")))
 #endif
-enum { OK = 0, ERROR = 3, FORCES = 1, GRAVITY = FORCES + 3 * SHEET_POINTS, FACTORS = GRAVITY + 3 };
-enum { OUTPUTS = FACTORS + SHEET_SOURCES, REACTIONS = OUTPUTS + 3 * SHEET_POINTS };
-enum { ENERGIES = REACTIONS + 3 * SHEET_BODIES, ALL = ENERGIES + 3 };
+enum { OK = 0, ERROR = 3 };
 typedef struct { sheet s; double now; } unit;
 typedef unsigned number;
 API const char *fmi3GetVersion(void) { return "3.0"; }
@@ -26,34 +23,20 @@ API void fmi3FreeInstance(void *u) { free(u); }
 API int fmi3EnterInitializationMode(void *u, bool given, double tolerance, double start, bool ends, double stop) {
   return ((unit *)u)->now = start, OK;
 }
-API int fmi3ExitInitializationMode(void *u) { return u ? OK : ERROR; }
-API int fmi3Terminate(void *u) { return u ? OK : ERROR; }
 API int fmi3Reset(void *u) { return sheet_reset(&((unit *)u)->s), ((unit *)u)->now = 0, OK; }
-API int fmi3SetDebugLogging(void *u, bool on, size_t count, const char *const *of) { return u ? OK : ERROR; }
-static sheet_real *input(sheet *s, int n) {
-  if (n < GRAVITY) return &s->force[(n - FORCES) / 3][(n - FORCES) % 3];
-  return n < FACTORS ? &s->gravity[n - GRAVITY] : &s->factor[n - FACTORS];
-}
-API int fmi3SetFloat64(void *of, const number *at, size_t count, const double *x, size_t values) {
+API int fmi3SetFloat64(void *u, const number *at, size_t count, const double *x, size_t values) {
   for (size_t k = 0; k < count; k++) {
-    const int n = (int)at[k];
-    if (n < FORCES || n >= OUTPUTS) return ERROR;
-    if (n < FACTORS) *input(of, n) = (sheet_real)x[k];
-    else sheet_set_curvature(of, n - FACTORS, (sheet_real)x[k]);
+    if (at[k] < 1 || at[k] > SHEET_INPUTS) return ERROR;
+    sheet_set(u, (int)at[k] - 1, (sheet_real)x[k]);
   }
   return OK;
 }
 API int fmi3GetFloat64(void *of, const number *at, size_t count, double *x, size_t values) {
-  sheet *s = of;
+  unit *u = of;
   for (size_t k = 0; k < count; k++) {
-    const int n = (int)at[k];
-    sheet_real three[3];
-    if (n >= ALL) return ERROR;
-    if (n == 0) x[k] = ((unit *)of)->now;
-    else if (n < OUTPUTS) x[k] = (double)*input(s, n);
-    else if (n < REACTIONS) sheet_probe(s, (n - OUTPUTS) / 3, three), x[k] = (double)three[(n - OUTPUTS) % 3];
-    else if (n < ENERGIES) sheet_reaction(s, (n - REACTIONS) / 3, three), x[k] = (double)three[(n - REACTIONS) % 3];
-    else x[k] = (double)sheet_energy(s, n - ENERGIES);
+    const int n = (int)at[k] - 1;
+    if (n >= SHEET_INPUTS + SHEET_OUTPUTS) return ERROR;
+    x[k] = n < 0 ? u->now : (double)(n < SHEET_INPUTS ? u->s.input[n] : sheet_get(&u->s, n - SHEET_INPUTS));
   }
   return OK;
 }
@@ -64,6 +47,8 @@ API int fmi3DoStep(void *of, double now, double h, bool keep, bool *event, bool 
   *event = *ends = *early = false, *last = u->now = now + h;
   return isfinite((double)sheet_energy(&u->s, SHEET_KINETIC)) ? OK : ERROR;
 }
+#define DONE(name) API int fmi3##name(void) { return OK; }
+DONE(ExitInitializationMode) DONE(Terminate) DONE(SetDebugLogging)
 /* what a unit of this kind is not called for */
 #define NOT(name) API int fmi3##name(void) { return ERROR; }
 #define BOTH(kind) NOT(Get##kind) NOT(Set##kind)

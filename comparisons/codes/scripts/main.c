@@ -1,27 +1,21 @@
 /* Steps the sheet and compares it with check.csv, what sheetbench's own steps found. Status 0: all alike. */
 #include <stdio.h>
 #include "sheet.h"
-enum { COUNT = 3 * (SHEET_POINTS + SHEET_BODIES) + 3 };
 int main(int words, char **word) {
   static sheet s;
   static const char *const name[3] = {"displacement", "force", "energy"};
-  double peak[3] = {0, 0, 0}, off[3] = {0, 0, 0}, at = 0;
+  double peak[3] = {0, 0, 0}, off[3] = {0, 0, 0}, at = 0, known = 0;
   int rows = 0, held = 1, letter;
   FILE *file = fopen(words > 1 ? word[1] : "check.csv", "r");
   if (!file) return fprintf(stderr, "no check.csv\n"), 2;
   while ((letter = fgetc(file)) != '\n' && letter != EOF) continue;
   sheet_reset(&s);
   for (; fscanf(file, "%lf", &at) == 1; rows++) {
-    while ((double)s.time + (double)s.step / 2 < at) sheet_step(&s, 1);
-    for (int n = 0; n < COUNT; n++) {
-      const int kind = n < 3 * SHEET_POINTS ? 0 : n < COUNT - 3 ? 1 : 2;
-      sheet_real three[3];
-      double known = 0, gap;
-      if (kind == 0) sheet_probe(&s, n / 3, three);
-      else if (kind == 1) sheet_reaction(&s, n / 3 - SHEET_POINTS, three);
-      else three[n % 3] = sheet_energy(&s, n % 3);
+    while (s.time + (double)s.step / 2 < at) sheet_step(&s, 1);
+    for (int n = 0; n < SHEET_OUTPUTS; n++) {
+      const int kind = n < SHEET_REACTIONS ? 0 : n < SHEET_ENERGIES ? 1 : 2;
       if (fscanf(file, ",%lf", &known) != 1) return fprintf(stderr, "check.csv breaks off\n"), 2;
-      gap = (double)three[n % 3] > known ? (double)three[n % 3] - known : known - (double)three[n % 3];
+      const double value = (double)sheet_get(&s, n), gap = value > known ? value - known : known - value;
       if (!(gap <= off[kind])) off[kind] = gap;
       if (known > peak[kind] || -known > peak[kind]) peak[kind] = known > 0 ? known : -known;
     }

@@ -1,48 +1,37 @@
-static double value(const double *c, int n, double t) {
-  double x = 0;
-  for (; n >= 0; n--) x = x * t + c[n];
-  return x;
-}
+static double value(const double *c, int n, double t) { return n < 0 ? 0 : c[0] + t * value(c + 1, n - 1, t); }
 static int roots(const double *c, int n, double *out) { /* where a polynomial of degree n changes its sign in (-1, 1) */
-  double end[7] = {-1, 1}, next[7] = {-1}, d[5];
-  int inside = 0;
-  for (int degree = 1; degree <= n; degree++) { /* by those of its derivatives */
-    int count = 0;
-    for (int k = 0; k <= degree; k++) {
-      d[k] = c[k + n - degree];
-      for (int j = 0; j < n - degree; j++) d[k] *= k + n - degree - j;
-    }
-    for (int j = 0; j <= inside; j++) {
-      double a = end[j], b = end[j + 1], at = value(d, degree, a);
-      if (at * value(d, degree, b) >= 0) continue;
-      for (int turn = 0; turn < 56; turn++) *(at * value(d, degree, (a + b) / 2) > 0 ? &a : &b) = (a + b) / 2;
-      next[++count] = (a + b) / 2;
-    }
-    next[count + 1] = 1, inside = count;
-    for (int j = 0; j < 7; j++) end[j] = next[j];
+  double slope[4], end[6] = {-1};
+  int inside = 0, count = 0;
+  for (int k = 0; k < n; k++) slope[k] = (k + 1) * c[k + 1];
+  if (n > 1) inside = roots(slope, n - 1, end + 1);
+  end[inside + 1] = 1;
+  for (int j = 0; j <= inside; j++) { /* between those of its derivative */
+    double a = end[j], b = end[j + 1], at = value(c, n, a);
+    if (at * value(c, n, b) >= 0) continue;
+    for (int turn = 0; turn < 52; turn++) *(at * value(c, n, (a + b) / 2) > 0 ? &a : &b) = (a + b) / 2;
+    out[count++] = b;
   }
-  for (int j = 0; j < inside; j++) out[j] = end[j + 1];
-  return inside;
+  return count;
 }
+static void parabolas(double t, double *f) { f[0] = t * (t - 1) / 2, f[1] = 1 - t * t, f[2] = t * (t + 1) / 2; }
 /* Gauss points of the part of a line at y between two ends where a depth d is positive: adds to loads of nine points */
 static double line(const double *d, const double *k, double y, double weight, double low, double high, double *load) {
-  double energy = 0;
+  double energy = 0, over[3], up[3];
   low = low < -1 ? -1 : low, high = high > 1 ? 1 : high;
   for (int g = 0; g < 4 && high > low; g++) {
-    const double x = (low + high) / 2 + (high - low) / 2 * ALONG[g][0], w = weight * (high - low) / 2 * ALONG[g][1];
-    const double over[3] = {x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2}, up[3] = {y * (y - 1) / 2, 1 - y * y, y * (y + 1) / 2};
     double deep = 0, stiff = 0;
-    for (int n = 0; n < 9; n++) deep += up[n / 3] * over[n % 3] * d[n], stiff += w * up[n / 3] * over[n % 3] * k[n];
+    parabolas((low + high) / 2 + (high - low) / 2 * ALONG[g][0], over), parabolas(y, up);
+    for (int n = 0; n < 9; n++) deep += up[n / 3] * over[n % 3] * d[n], stiff += up[n / 3] * over[n % 3] * k[n];
+    stiff *= weight * (high - low) / 2 * ALONG[g][1], energy += stiff * deep * deep * deep / 6;
     for (int n = 0; n < 9; n++) load[n] += stiff * deep * deep / 2 * up[n / 3] * over[n % 3];
-    energy += stiff * deep * deep * deep / 6;
   }
   return energy;
 }
 static double inside(const double *d, const double *k, double *load) { /* over the patch of a cell where its depth is positive */
-  double c[3][3], row[3][3], end[8] = {-1}, p[5], r[5] = {0}, energy = 0;
+  static const double power[3][3] = {{0, 1, 0}, {-0.5, 0, 0.5}, {0.5, -1, 0.5}};
+  double c[3][3] = {{0}}, end[8] = {-1}, p[3], r[5] = {0}, energy = 0;
   int n = 1;
-  for (int i = 0; i < 3; i++) row[i][0] = d[3 * i + 1], row[i][1] = (d[3 * i + 2] - d[3 * i]) / 2, row[i][2] = (d[3 * i + 2] + d[3 * i]) / 2 - d[3 * i + 1];
-  for (int j = 0; j < 3; j++) c[0][j] = row[1][j], c[1][j] = (row[2][j] - row[0][j]) / 2, c[2][j] = (row[2][j] + row[0][j]) / 2 - row[1][j];
+  for (int i = 0; i < 81; i++) c[i / 27][i / 9 % 3] += power[i / 27][i % 9 / 3] * power[i / 9 % 3][i % 3] * d[i % 9];
   for (int s = -1; s < 2; s += 2) { /* where the border passes a side */
     for (int i = 0; i < 3; i++) p[i] = c[i][0] + s * c[i][1] + c[i][2];
     n += roots(p, 2, end + n);
@@ -63,7 +52,7 @@ static double inside(const double *d, const double *k, double *load) { /* over t
   }
   return energy;
 }
-static real patch(sheet *s, const unsigned *of) { /* sets the loads of the nine points of a part of a cell; returns the energy */
+static real patch(sheet *s, const int *of) { /* sets the loads of the nine points of a block of a cell; returns the energy */
   double d[9], k[9], load[9], energy = 0, most = s->touch[of[0]][3], least = most;
   for (int n = 0; n < 9; n++) d[n] = s->touch[of[n]][3], most = d[n] > most ? d[n] : most, least = d[n] < least ? d[n] : least;
   if (most + least + 1.5625 * (most - least) <= 0) return 0; /* nowhere deeper than the mean by more than this */

@@ -13,7 +13,7 @@ in load steps so short that no obstacle moves by more than a quarter of its radi
 
 A penalty has the `obstacle`, the acting `share` of its stiffness, whether its patch is within cells, `bent`,
 and at its points the full stiffness `full` (…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method
-`near` takes the points as `placed`.
+`near` takes the result of `configuration`.
 """
 
 from __future__ import annotations
@@ -37,6 +37,7 @@ REACH = 0.1  # largest displacement of the first linear step; longer ones lead a
 LOOSE, CLOSE, CLOSER = 0.05, 0.01, 3e-3  # residuals at which soft load steps end, and stages but the last
 PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
+FAR = 10.0  # sizes from rest and beyond all prescribed motions: out of reach
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
@@ -44,6 +45,15 @@ def soften(penalties: Sequence[Any], share: float) -> None:
     """Give penalties a share of their stiffness, 1 for all of it."""
     for one in penalties:
         one.share = share
+
+
+def reaches(structure: Structure[State, Forces]) -> bool:
+    """Return whether an obstacle is near enough for a structure to touch it."""
+    rest = structure.rest()
+    at, reach = structure.configuration(rest, 1.0), structure.size * (FAR + structure.gap(rest, 1.0))
+    ways = (np.linalg.norm(one.obstacle.place() - one.obstacle.position) for one in structure.contacts)
+    both = zip(structure.contacts, ways, strict=True)
+    return any(one.near(at).depth.max() > -reach - way for one, way in both)
 
 
 def require_way(path: Path[State, Forces], state: State, load_factor: float) -> None:

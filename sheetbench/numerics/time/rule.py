@@ -22,6 +22,8 @@ import numpy as np
 
 from sheetbench.errors import BadInput
 
+LONGER = 2.5  # times the step before, up to which a' is carried over: controllers let steps grow by 2
+
 
 class Rule(NamedTuple):
     """Coefficients of a step: αm, αf, γ, β, and `old`, the coefficient of h² a'₀ in u₁. order: of u's local
@@ -94,5 +96,6 @@ def step_of(rule: Rule, h: float, u: np.ndarray, v: np.ndarray, a: np.ndarray, o
 
 
 def shifted(a: np.ndarray, algorithm: np.ndarray, h: float, before: float) -> np.ndarray:
-    """Return a' for steps of h [s] from a and its value for steps of `before` [s], 0 without any."""
-    return a + (h / before if before else 1.0) * (algorithm - a)
+    """Return a' for steps of h [s] from a and its value for steps of `before` [s], 0 without any; a itself
+    after much shorter steps, as between the ends of a jump."""
+    return a + h / before * (algorithm - a) if h <= LONGER * before else a

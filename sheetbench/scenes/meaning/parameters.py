@@ -22,9 +22,8 @@ actuatorN.x, y, z, curvatureJ, bending_stiffness      of the scene's Nth [[actua
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from contextlib import suppress
-from functools import reduce
+from functools import cache
 from itertools import product
 from math import inf, isfinite, pi
 from typing import Any, NamedTuple
@@ -125,32 +124,37 @@ def names_of(scene: SceneFields) -> list[str]:
     most = max(*map(len, lists), len(scene.material.relaxation), *joints, 1)
     ends = [f"{key}_{edge}" for key in ("curvature", "tilt") for edge in EDGES]
     names = []
-    for name in (*(name for pattern in PLACES for name in _expanded(pattern, most)), *ends):
+    for name in (*_numbered(most), *ends):
         with suppress(BadInput, TypeError):
             if isfinite(parameter(scene, name).value):  # a plane's radius is not
                 names.append(name)
     return names
 
 
-def _expanded(pattern: str, most: int) -> Iterator[str]:
-    """Yield the names that a pattern of names stands for, with numbers up to `most`."""
-    parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
-    numbers = [str(n + 1) for n in range(most)]
-    words = [part.removeprefix("(").removesuffix(")") for part in parts]
-    choices = [
-        numbers if word == r"\d+" else [*word[1:-1]] if word[0] == "[" else word.split("|") for word in words
-    ]
-    return map("".join, product(*choices))
+@cache
+def _numbered(most: int) -> tuple[str, ...]:
+    """Return the names that PLACES stands for, with numbers up to `most`."""
+    names, numbers = list[str](), [str(n + 1) for n in range(most)]
+    for pattern in PLACES:
+        parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
+        words = [part.removeprefix("(").removesuffix(")") for part in parts]
+        choices = [numbers if w == r"\d+" else [*w[1:-1]] if w[0] == "[" else w.split("|") for w in words]
+        names += map("".join, product(*choices))
+    return tuple(names)
 
 
-def put(scene: AScene, name: str, value: float) -> AScene:
-    """Return the scene with a parameter at another value. Raises BadInput if the scene has no parameter of
+def put(scene: AScene, name: str, value: float, checked: bool = True) -> AScene:
+    """Return the scene with a parameter at another value. checked: whether the objects of the scene are
+    checked together, which a small change does not need. Raises BadInput if the scene has no parameter of
     this name, and SceneError if the value is impossible."""
     paths = _paths(scene, name)
     try:
         if name == "thickness":
-            return _with_thickness(scene, value / scene.sheet.thickness)
-        return reduce(lambda changed, path: _replaced(changed, path, value), paths, scene)
+            return _with(scene, _thickness(scene, value / scene.sheet.thickness), checked)
+        for path in paths:
+            part = str(path[0])
+            scene = _with(scene, {part: _replaced(getattr(scene, part), path[1:], value)}, checked)
+        return scene
     except SceneError as error:
         raise SceneError(f"{name} = {value:g}: {error}") from None
 
@@ -173,12 +177,20 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
     return paths
 
 
-def _places(scene: SceneFields, name: str) -> list[Path]:
-    """Return the paths that a name may stand for. Raises BadInput if it stands for none."""
+@cache
+def _place(name: str) -> Path | None:
+    """Return the path of PLACES to a parameter of any scene, None if there is none."""
     for pattern, place in PLACES.items():
         if at := re.fullmatch(pattern, name):
             parts = at.expand(place).split(".")
-            return [tuple(int(p) - 1 if p.isdecimal() else COMPONENTS.get(p, p) for p in parts)]
+            return tuple(int(p) - 1 if p.isdecimal() else COMPONENTS.get(p, p) for p in parts)
+    return None
+
+
+def _places(scene: SceneFields, name: str) -> list[Path]:
+    """Return the paths that a name may stand for. Raises BadInput if it stands for none."""
+    if path := _place(name):
+        return [path]
     key, _, edge = name.partition("_")
     holders = {"tilt": Clamped, "curvature": Curved | Chain}
     if key not in holders:
@@ -217,10 +229,14 @@ def _replaced(of: Any, path: Path, value: Any) -> Any:
     return of.replace(**{part: _replaced(getattr(of, part), inner, value)})
 
 
-def _with_thickness(scene: AScene, factor: float) -> AScene:
-    """Return the scene with the thickness of its sheet, tapers and layers times a factor."""
+def _with(scene: AScene, parts: dict[str, Any], checked: bool) -> AScene:
+    return scene.replace(**parts) if checked else scene.model_copy(update=parts)
+
+
+def _thickness(scene: SceneFields, factor: float) -> dict[str, Any]:
+    """Return the scene's sheet and layers with thicknesses times a factor, tapers included."""
     sheet = scene.sheet
     given = sheet.given(("taper_x", "taper_y"))
     tapers = {key: tuple(factor * h for h in ends) for key, ends in given.items()}
     layers = tuple(layer.replace(thickness=factor * layer.thickness) for layer in scene.layers)
-    return scene.replace(sheet=sheet.replace(thickness=factor * sheet.thickness, **tapers), layers=layers)
+    return {"sheet": sheet.replace(thickness=factor * sheet.thickness, **tapers), "layers": layers}

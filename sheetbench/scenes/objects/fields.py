@@ -183,7 +183,7 @@ class SceneFields(Frozen, defer_build=True):
     @property
     def natural_by(self) -> str:
         """Return the keys by which the sheet is not flat and free of stress at rest, "" if it is."""
-        return ", ".join(self.natural_states)
+        return ", ".join(name for name, state in self.natural_states.items() if state.nonzero)
 
     @property
     def pierced(self) -> bool:

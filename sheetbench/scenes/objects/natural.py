@@ -31,6 +31,11 @@ class Natural(Loading):
     pretension: Annotated[tuple[Number, Number], Unit("N/m")] | None = Field(default=None, kw_only=True)
     """In place of strain: forces per length [Nx, Ny] of the sheet held at its drawn size."""
 
+    @property
+    def nonzero(self) -> bool:
+        """Return whether a component is not zero."""
+        return any((*self.strain, *self.curvature, *(self.pretension or ())))
+
     def _faults(self) -> Iterator[object]:
         yield self.pretension and any(self.strain) and "strain and pretension: give one of them"
         xx, yy, xy = (self.last_factor * component for component in self.strain)
@@ -45,3 +50,8 @@ class Temperature(Loading):
     """Difference in the middle of the thickness; > 0 is warmer."""
     gradient: Annotated[Number, Unit("K/m")] = 0.0
     """Gradient along z; > 0 is warmer on the upper face."""
+
+    @property
+    def nonzero(self) -> bool:
+        """Return whether it differs from zero."""
+        return bool(self.change or self.gradient)

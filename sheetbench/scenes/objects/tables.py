@@ -22,13 +22,12 @@ Values = Sequence[float] | Sequence[Sequence[float]]
 
 class PiecewiseCurve:
     """Curve through values (n, …) at increasing times (n,) [s], linear or smooth, constant outside. A smooth
-    curve of two samples is a line."""
+    curve of two samples is a line. pieces: coefficients (powers, n + 1, …) in the time since a piece's start,
+    from the constant on; the first and the last piece are before and after the samples."""
 
     def __init__(self, time: Sequence[float], values: Values, interpolation: Interpolation = "linear"):
         self._time, samples = np.array(time, dtype=float), np.array(values, dtype=float)
         self._instant = INSTANT * (self._time[-1] - self._time[0])
-        # coefficients of each piece in the time since its start, from the constant on; the first and the last
-        # piece lie before and after the samples
         inner = samples[None, :0]
         if len(time) > 1 and interpolation == "linear":
             spacing = np.diff(self._time).reshape(-1, *(1,) * (samples.ndim - 1))
@@ -37,14 +36,14 @@ class PiecewiseCurve:
             from scipy.interpolate import PchipInterpolator  # not needed to read a scene
 
             inner = np.asarray(PchipInterpolator(self._time, samples).c[::-1])
-        self._pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
-        self._pieces[:, 1:-1] = inner
-        self._pieces[0, 0], self._pieces[0, -1] = samples[0], samples[-1]
+        self.pieces = np.zeros((len(inner), len(samples) + 1, *samples.shape[1:]))
+        self.pieces[:, 1:-1] = inner
+        self.pieces[0, 0], self.pieces[0, -1] = samples[0], samples[-1]
 
     def at(self, time: float | np.ndarray | None = None) -> np.ndarray:
         """Return the value at a time [s], or values (k, …) at times (k,); without a time the last value."""
         if time is None:
-            return np.asarray(self._pieces[0, -1])
+            return np.asarray(self.pieces[0, -1])
         return self._sum(time, np.searchsorted(self._time, time, side="right"), 0)
 
     def slope(self, time: float | np.ndarray, before: bool = False) -> np.ndarray:
@@ -62,11 +61,11 @@ class PiecewiseCurve:
     def _sum(self, time: float | np.ndarray, piece: np.ndarray, derivative: int) -> np.ndarray:
         """Return the derivative of this order of the pieces' polynomials, by Horner's rule."""
         since = time - self._time[np.maximum(piece - 1, 0)]
-        since = np.reshape(since, (*np.shape(time), *(1,) * (self._pieces.ndim - 2)))
-        total = np.zeros(np.shape(self._pieces[0, piece]))
-        for power in range(len(self._pieces) - 1, derivative - 1, -1):
+        since = np.reshape(since, (*np.shape(time), *(1,) * (self.pieces.ndim - 2)))
+        total = np.zeros(np.shape(self.pieces[0, piece]))
+        for power in range(len(self.pieces) - 1, derivative - 1, -1):
             factor = float(np.prod(np.arange(power - derivative + 1, power + 1)))
-            total = factor * self._pieces[power, piece] + since * total
+            total = factor * self.pieces[power, piece] + since * total
         return total
 
 

@@ -94,7 +94,7 @@ def test_constants_of_patches_are_found_again(model):
     assert values == pytest.approx([2e8, 0.002], rel=1e-3)
     with pytest.raises(BadInput, match=r"row 0, .* x, y = 0.09, 0.09 is off the sheet"):
         identify(guess, Displacements(np.array([[0.09, 0.09]]), np.full((1, 3), 1e-3)), lattice=Lattice(4))
-    with pytest.raises(BadInput, match="of a sheet with an outline or cutouts give displacements"):
+    with pytest.raises(BadInput, match="for a sheet with an outline or cutouts give displacements"):
         identify(guess, Surface(np.ones((9, 3)) * 1e-3), lattice=Lattice(4))
 
 

@@ -1,5 +1,6 @@
 """Campaigns on a cluster: how many runs at once, timed ones, lost workers and schedulers, Ctrl-C."""
 
+import logging
 import os
 import subprocess
 import sys
@@ -80,6 +81,14 @@ def test_a_cluster_without_workers_is_said_in_a_line():
     refused = pytest.raises(BadInput, match="no scheduler there with a worker")
     with cluster(0) as local, refused, pool_of(local.scheduler_address):
         pass
+
+
+def test_errors_of_its_libraries_do_not_repeat_the_line(caplog):
+    """A callback's traceback, of a future that ends with the last worker, stood before the line."""
+    with cluster(1) as local, pool_of(local.scheduler_address):
+        for library in ("distributed", "distributed.client", "tornado.application"):
+            logging.getLogger(library).error("Exception in callback")
+    assert "Exception in callback" not in caplog.text
 
 
 def test_a_campaign_on_a_cluster_obeys_ctrl_c(store):

@@ -180,3 +180,14 @@ def test_a_mesh_of_the_sheets_own_is_not_graded(model):
     corners = [(0.0, 0.0), (0.188, 0.0), (0.188, 0.188), (0.0, 0.188)]
     own = load("one-edge-clamped").replace(mesh={"points": corners, "quads": [(0, 1, 2, 3)]})
     assert SHEETS[model](own, moving=True).settings["graded"] is False
+
+
+def test_a_push_that_ends_between_fixed_steps_has_its_own_impulse():
+    """The step between both ends of the jump set the acceleration of the next one: 55 % too far."""
+    h = 1e-3
+    end, until = 10.5 * h, 20 * h
+    push = FactorTable(time=(0.0, end, end + 1e-3 * h), factor=(1.0, 1.0, 0.0))
+    along = Gravity(acceleration=(1.0, 0.0, 0.0), history=push)
+    scene = load("two-edges-clamped").replace(supports=(), gravity=along)
+    pushed = fem_reference.simulate(scene, "shell", until, elements=2, every=until, step=h)
+    assert pushed.probes["P1"][-1, 0] == pytest.approx(0.5 * end**2 + end * (until - end), rel=1e-4)

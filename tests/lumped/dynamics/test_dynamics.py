@@ -144,6 +144,17 @@ def test_momentum_of_a_free_sheet_is_conserved(name, tolerance, damping):
     assert largest(np.array(angular) - angular[0]) < tolerance * largest(angular[0])
 
 
+@pytest.mark.parametrize("name, h", [("verlet", 2e-5), ("midpoint", 1e-3), ("generalised-alpha", 1e-3)])
+def test_a_push_that_ends_between_steps_has_its_own_impulse(name, h):
+    """Steps end at both ends of the jump; half a step more of the push was felt before."""
+    end, until = 10.5 * h, 20 * h
+    history = {"time": [0.0, end, end + 1e-3 * h], "factor": [1.0, 1.0, 0.0]}
+    scene = make_scene(supports=[]).replace(gravity={"acceleration": [1.0, 0.0, 0.0], "history": history})
+    pushed = lumped.simulate(scene, springs(scene, 3), until, integrator=name, step=h, every=until)
+    gone = 0.5 * end**2 + end * (until - end)
+    assert pushed.probes["P1"][-1, 0] == pytest.approx(gone, rel=1e-4)  # 3e-2 before
+
+
 def test_dampers_of_the_table_act_by_family_and_mass_damping_decays_exactly():
     table = DamperSet(axial=0.5, cross=0.2)
     equations, rest = system(make_scene(gravity=False).model_copy(update={"dampers": table}), n=3)

@@ -8,6 +8,7 @@ from scipy.integrate import cumulative_trapezoid, solve_ivp, trapezoid
 from scipy.optimize import fsolve
 from scipy.special import beta
 
+import lumped
 from sheetbench.scenes import (
     Clamped,
     Cylinder,
@@ -144,3 +145,8 @@ def heavy_elastica(drop: float, per: float = 0.01) -> tuple[float, float, float]
 
     z = fsolve(lambda z: ends(z) * [1, s0, 1 / drop], [6 * drop / s0, 2 / 3, 1.0])
     return z[2] * s0, z[1] * s0, per * z[0] / s0
+
+
+def on_lattice(scene, grid, grading=0.0, method="consistent", **options):
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=grid, grading=grading, method=method)
+    return lumped.solve(scene, springs, **options)

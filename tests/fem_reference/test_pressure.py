@@ -73,7 +73,7 @@ def test_on_a_free_edge_the_tangent_is_unsymmetric_and_solved_with_its_symmetric
     assert abs(matrix - matrix.T).max() > 1e-8 * abs(matrix).max()
     b = np.random.default_rng(1).standard_normal(problem.system.unknowns)
     np.testing.assert_allclose(matrix @ factor.solve(b), b, atol=1e-9 * np.abs(matrix.data).max())
-    assert factor._whole is None and factor.negative_real() == 0
+    assert factor._full is None and factor.negative_real() == 0
 
 
 @pytest.mark.parametrize("supports", [CLAMPED, HINGED, FREE], ids=["clamped", "hinged", "free"])

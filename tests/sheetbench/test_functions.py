@@ -72,7 +72,7 @@ WRONG = {
         "compare: got an unexpected keyword argument 'gird'; it has .*did you mean grid\\?",
     ),
     "the older name": (lambda: sb.stability(SCENE, varied=["load"]), "'varied'; it has .*vary"),
-    "one too many": (lambda: sb.calibrate(SCENE, grid=3, lumped=3), "lumped and grid are one"),
+    "one too many": (lambda: sb.calibrate(SCENE, grid=3, lumped=3), "lumped and grid are the same option"),
     "a missing one": (lambda: sb.compare(), "compare: missing a required argument: 'scene'"),
     "an inner one": (lambda: sb.cell("equilateral", SCENE), "spacing = Scene"),
     "a list": (lambda: sb.tradeoff(SCENE, tolerance=[1]), r"tolerance = \[1\]: a number is needed"),

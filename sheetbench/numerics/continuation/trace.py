@@ -57,7 +57,8 @@ def trace_path(
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        fault = stiffened(path, _trace, near) if reaches(structure) else _trace(path, near)
+        touching = structure.contacts and reaches(structure)
+        fault = stiffened(path, _trace, near) if touching else _trace(path, near)
         path.fault = fault
         path.status, note = fault or stability(path)
         if buckled and settle is not None and fault is None and path.status is Status.UNSTABLE:

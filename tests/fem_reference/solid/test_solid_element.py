@@ -103,7 +103,7 @@ def test_assumed_strains_keep_what_does_not_lock(component):
         samples = np.concatenate([np.prod(at**powers, axis=1) for at in sites()])
         np.testing.assert_allclose(ref.assumed[:, number] @ samples, taken, atol=1e-13)
         rest = whole - taken if component == "ξη" else 0.0
-        np.testing.assert_allclose(ref.lost[:, number] @ samples, rest, atol=1e-13)
+        np.testing.assert_allclose(ref.omitted[:, number] @ samples, rest, atol=1e-13)
 
 
 def test_samples_are_green_s_strains_at_the_sites(rng):

@@ -118,7 +118,9 @@ def test_rubbers_stretch_to_twice_their_length_as_closed_forms_say():
 
 def test_a_law_without_its_constants_is_refused_with_what_to_write():
     for model in ("shell", "solid"):
-        with pytest.raises(BadInput, match=r"'gent'.*lacks its constants.*\[material\] law = 'gent' with shear and"):
+        with pytest.raises(
+            BadInput, match=r"'gent'.*lacks its constants.*\[material\] law = 'gent' with shear and"
+        ):
             fem_reference.solve(pulled((1.0, 0.0)), model, elements=2, law="gent")
 
 

@@ -33,7 +33,7 @@ help:
 	@echo "make viewer    the viewer of sheets in a browser, comparisons/pages/viewer.js, from its source (needs Node)"
 	@echo "make docs-scene  the sketch of a scene, docs/images/scene.svg"
 	@echo "make animations  the moving pictures of README and catalogue, docs/images/*.gif (four minutes)"
-	@echo "make pictures  the still pictures of the README and of the pages (a minute; needs chromium)"
+	@echo "make pictures  the still pictures of the README and of the pages (five minutes; needs chromium)"
 	@echo "make docs      the documentation as a site, docs/_build/html/index.html (four minutes; a warning is an error)"
 	@echo "make wheel-check  the wheel as its users get it: installed elsewhere, run there, uninstalled without a trace"
 	@echo "make extras-check  the wheel with each extra on its own, and with none, in environments that have nothing else"

@@ -24,14 +24,14 @@ STEP = 1e-8  # s, below every limit
 
 
 def seconds(work: Callable[[], int]) -> float:
-    """CPU time of each of what `work` does."""
+    """Return the CPU time of each part of `work`."""
     began = time.process_time()
     count = work()
     return (time.process_time() - began) / count
 
 
 def measure(masses: int, damping_time: float) -> tuple[float, float]:
-    """Seconds a step, compiled and one by one."""
+    """Return the seconds of a step, compiled and one by one."""
     scene = scenes.load("two-edges-clamped")
     scene = scene.replace(material=scene.material.replace(damping_time=damping_time))
     springs = lumped.calibrate(scene.sheet, scene.material, grid=masses)

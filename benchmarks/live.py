@@ -75,7 +75,7 @@ def main() -> None:
 
 
 def drag(page: Page, steps: int, waiting: bool) -> tuple[list[float], list[float]]:
-    """Times [ms] to the lattice and to the shell of so many steps of the mouse, there and back."""
+    """Return the times [ms] to the lattice and to the shell of so many steps of the mouse, there and back."""
     box = page.locator("#slider-young").bounding_box()
     assert box is not None
     y, middle = box["y"] + box["height"] / 2, box["x"] + box["width"] / 2
@@ -93,14 +93,14 @@ def drag(page: Page, steps: int, waiting: bool) -> tuple[list[float], list[float
 
 
 def until(page: Page, expression: str) -> None:
-    """Wait for an expression to hold; the page's policy lets nobody wait within it."""
+    """Wait for an expression to hold; the page's policy does not allow to wait within it."""
     while not page.evaluate(expression):
         page.wait_for_timeout(5)
 
 
 @contextmanager
 def serving(*options: str) -> Iterator[str]:
-    """The address of the page, served by a process of its own as users start it."""
+    """Yield the address of the page, served by a process of its own as users start it."""
     command = [sys.executable, "-m", "sheetbench", "live", *options, "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None

@@ -36,8 +36,8 @@ Answer = tuple[np.ndarray, int]  # P4 (n, 3) [m] at samples, and steps
 
 
 def equations() -> tuple[Any, Callable[..., np.ndarray], Callable[..., sp.csc_array]]:
-    """The lattice's system, and ẏ and ∂ẏ/∂y of y = (free displacements, their velocities): of dampers that
-    turn the Jacobian leaves the turning out, as an implicit step does."""
+    """Return the lattice's system, and ẏ and ∂ẏ/∂y of y = (free displacements, their velocities), without
+    the derivative of the dampers' directions, as in an implicit step."""
     scene = scenes.load(SCENE)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
     system = lumped.System(scene, lumped.build_problem(scene, springs))
@@ -60,7 +60,7 @@ def equations() -> tuple[Any, Callable[..., np.ndarray], Callable[..., sp.csc_ar
 
 
 def bdf(rtol: float, duration: float) -> Callable[[], Answer]:
-    """SciPy's BDF on the lattice's equations as a system of first order."""
+    """Run SciPy's BDF on the lattice's equations as a system of first order."""
     system, rate, jacobian = equations()
     times = np.linspace(0.0, duration, round(duration / EVERY) + 1)
     n, corner = system.reduced_mass.shape[0], system.assembly.lattice.columns()[-1, -1]
@@ -76,7 +76,7 @@ def bdf(rtol: float, duration: float) -> Callable[[], Answer]:
 
 
 def ours(integrator: str, duration: float, **options: Any) -> Callable[[], Answer]:
-    """A run of ours, set-up and samples included."""
+    """Run `simulate`, set-up and samples included."""
     scene = scenes.load(SCENE)
     springs = lumped.calibrate(scene.sheet, scene.material, grid=GRID)
 
@@ -88,7 +88,7 @@ def ours(integrator: str, duration: float, **options: Any) -> Callable[[], Answe
 
 
 def seconds(work: Callable[[], Any]) -> tuple[float, Any]:
-    """CPU time, and what `work` returns."""
+    """Return the CPU time and the result of `work`."""
     began = time.process_time()
     found = work()
     return time.process_time() - began, found

@@ -29,7 +29,7 @@ FACTORS = ("factor", "solve")
 
 
 class Clock:
-    """CPU seconds by kind; what is called from another kind counts there."""
+    """Return the CPU seconds by kind of function, without the calls of other kinds."""
 
     def __init__(self) -> None:
         self.spent: dict[str, float] = {}
@@ -37,7 +37,7 @@ class Clock:
         self._since = 0.0
 
     def watch(self, owner: Any, name: str, kind: str) -> None:
-        """Count what a function takes."""
+        """Count the seconds of a function."""
         plain: Callable[..., Any] = getattr(owner, name)
 
         def timed(*arguments: Any, **named: Any) -> Any:

@@ -35,14 +35,14 @@ LATTICES, SHELLS, BATCH = (3, 5, 9, 17, 33, 65), (4, 8, 16, 32), 1000
 
 
 def timed(call: Callable[[], Any], clock: Callable[[], float] = process_time) -> float:
-    """Seconds that a call takes."""
+    """Return the seconds of a call."""
     began = clock()
     call()
     return clock() - began
 
 
 def lattice(masses: int) -> dict[str, Any]:
-    """A square lattice: seconds of the solve, what they go to, and the rate of its factorisations."""
+    """Measure a square lattice: seconds of the solve and of its parts, and the rate of its factorisations."""
     springs = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(masses, masses))
     repeats = 30 if masses < 20 else 3 if masses < 100 else 1
     with one_blas_thread():
@@ -68,7 +68,7 @@ def lattice(masses: int) -> dict[str, Any]:
 
 
 def factorisation(problem: Any, blocks: np.ndarray) -> tuple[Callable[[], Any], float]:
-    """One factorisation alone, and its operations."""
+    """Measure one factorisation, and count its operations."""
     system = problem.system
     if system.band is not None:
         matrix = banded.stored(blocks, system.band)
@@ -84,7 +84,7 @@ def factorisation(problem: Any, blocks: np.ndarray) -> tuple[Callable[[], Any], 
 
 
 def batch(count: int) -> dict[str, Any]:
-    """Many lattices of 9×9×2 whose springs differ, at once and one by one; seconds a case, of the CPU too."""
+    """Measure many lattices of 9×9×2 with different springs, at once and one by one, in seconds a case."""
     springs = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(9, 9))
     stiffness = lumped.calibrate(SCENE.sheet, SCENE.material, grid=(9, 9)).springs.diagonal
     several = [springs.with_constant("diagonal", k) for k in np.linspace(0.5, 1.5, count) * stiffness]
@@ -103,7 +103,7 @@ def batch(count: int) -> dict[str, Any]:
 
 
 def shell(elements: int) -> dict[str, Any]:
-    """A shell: seconds of its call, and the share of its factorisations."""
+    """Measure a shell: seconds of its call, and the share of its factorisations."""
     spent = 0.0
     plain = DirectSolver.factor
 
@@ -132,7 +132,7 @@ def shell(elements: int) -> dict[str, Any]:
 
 
 def of_batch_and_shells(count: int, shells: Sequence[int]) -> list[dict[str, Any]]:
-    """Their rows, printed."""
+    """Print the rows of batches and shells."""
     rows = [batch(count)]
     row = rows[-1]
     print(

@@ -35,7 +35,7 @@ def main() -> None:
 
 
 def in_space(view: Axes) -> None:
-    """Axes, sides and the names of the edges."""
+    """Draw axes, sides and the names of the edges."""
     view.set_title("the flat sheet, its axes and edges", loc="left", color=INK)
     x, y, z = np.eye(3)
     corners = np.array([0 * x, 3 * x, 3 * x + 2.4 * y, 2.4 * y]) @ OBLIQUE
@@ -76,7 +76,7 @@ def in_space(view: Axes) -> None:
 
 
 def from_the_side(view: Axes) -> None:
-    """A tilted clamp and an edge moment, both positive; gravity and a force."""
+    """Draw a tilted clamp and an edge moment, both positive; gravity and a force."""
     view.set_title("from the side: tilt > 0, moment_per_length > 0", loc="left", color=INK)
     s = np.linspace(0.0, 3.6, 60)
     drop = -0.32 * s + 0.055 * s**2 + 0.012 * s**3
@@ -110,7 +110,7 @@ def from_the_side(view: Axes) -> None:
 
 
 def from_outside(view: Axes) -> None:
-    """An edge bent by a rod or a chain to a positive curvature."""
+    """Draw an edge bent by a rod or a chain to a positive curvature."""
     view.set_title("an edge from outside: curvature > 0", loc="left", color=INK)
     kappa = 0.42
     s = np.linspace(-1.8, 1.8, 60)
@@ -137,7 +137,7 @@ def from_outside(view: Axes) -> None:
 
 
 def through_the_thickness(view: Axes) -> None:
-    """Faces, the chain's axis on each, pressure."""
+    """Draw faces, the chain's axis on each, pressure."""
     view.set_title("through the thickness: faces, pressure > 0", loc="left", color=INK)
     view.add_patch(Rectangle((-2.0, -0.3), 4.0, 0.6, facecolor=SHEET, edgecolor=INK, lw=1.0))
     view.plot([-2.2, 2.3], [0.0, 0.0], color=QUIET, lw=0.8, ls="-.")
@@ -171,7 +171,7 @@ def arrow(view: Axes, start: object, end: object, color: str) -> None:
 
 
 def turn(view: Axes, centre: object, radius: float, start: float, end: float, color: str) -> None:
-    """An arc with a head, from one angle to another."""
+    """Draw an arc with a head, from one angle to another."""
     angles = np.linspace(start, end, 40)
     x, y = np.asarray(centre)[:, None] + radius * np.array([np.cos(angles), np.sin(angles)])
     view.plot(x, y, color=color, lw=1.3)

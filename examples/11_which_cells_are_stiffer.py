@@ -40,7 +40,7 @@ measured = [u + noise * rng.standard_normal(u.shape) for u in clean]
 
 
 def misfit(logarithms, smoothing):
-    """Chi square and what roughness costs, with their derivatives by the logarithms of the moduli."""
+    """Return χ² plus the penalty of roughness, with the derivatives by the logarithms of the moduli."""
     p = logarithms.reshape(8, 8)
     factors, value, slope = np.exp(p), 0.0, np.zeros((8, 8))
     for forces, data in zip(cases, measured, strict=True):

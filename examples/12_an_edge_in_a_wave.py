@@ -32,14 +32,17 @@ wave = 4e-3 * np.sin(2.0 * np.pi * y / side)
 
 
 def over_cells(design):
-    """Curvatures (8, 8, 3) of patches (4, 4, 2) of 2 x 2 cells."""
+    """Return curvatures (8, 8, 3) of patches (4, 4, 2) of 2 x 2 cells."""
     return np.pad(
         np.repeat(np.repeat(design.reshape(4, 4, 2), 2, axis=0), 2, axis=1), ((0, 0), (0, 0), (0, 1))
     )
 
 
 def misfit(tenths):
-    """Of the edge's height [mm²] and a little for curvature, with its derivatives; tenths: of 10/m."""
+    """Return the misfit of the edge's height [mm²] plus a small penalty of curvature, and its derivatives.
+
+    tenths: curvatures in 10/m.
+    """
     design = 10.0 * tenths
     u = sheet.solve({"cells.curvature": over_cells(design)})
     missed = np.zeros((9, 3))

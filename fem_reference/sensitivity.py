@@ -106,12 +106,12 @@ class SheetSensitivity:
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
         if not self.sheet.touched_without_kinks:
             return self.pullback(out)
-        on, _, by = self._lent(points)
+        on, _, by = self._surface_change(points)
         return self.pullback(out, self.sheet.of_surface(on, np.einsum("pijc,pi->pjc", by, weights)))
 
-    def _lent(self, points: np.ndarray) -> tuple[np.ndarray, ...]:
+    def _surface_change(self, points: np.ndarray) -> tuple[np.ndarray, ...]:
         plan = np.asarray(points, dtype=float)
-        return tangent_planes.lent(self.sheet.plan.mesh, self.shape.vectors, plan)
+        return tangent_planes.change_at(self.sheet.plan.mesh, self.shape.vectors, plan)
 
     def pullback(self, by_displacement: np.ndarray, more: np.ndarray | float = 0.0) -> SheetGradient:
         """Return the derivatives of a J with ∂J/∂u (n, 3) at the nodes, and `more` ∂J/∂q (N,)."""
@@ -144,7 +144,7 @@ class SheetSensitivity:
         found = sheet.sample(sheet.displacement(moved), np.asarray(points))
         if not sheet.touched_without_kinks:
             return found
-        on, _, by = self._lent(points)
+        on, _, by = self._surface_change(points)
         return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(moved)[on])
 
     def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:

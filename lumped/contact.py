@@ -137,8 +137,8 @@ class Contact(LatticeItem):
         vectors, ends = self.surface.vectors(self._rest[cell] + u[nodes])
         by = np.einsum("kq,kqirj,ra->kiaj", share, self.surface.slopes(ends)[:, 4:], self.surface.linear)
         straight = MidSurface(self._lattice, plan, order=1)
-        lent = np.einsum("kq,kqi->ki", share, vectors[:, 4:])
-        return straight.of(u) + lent, CurvedSurface(self._lattice, plan, nodes, by)
+        curves = np.einsum("kq,kqi->ki", share, vectors[:, 4:])
+        return straight.of(u) + curves, CurvedSurface(self._lattice, plan, nodes, by)
 
     def near(self, at: Deformed) -> Near:
         """Return the places of points (m, p) of cells beside the obstacle."""

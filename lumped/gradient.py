@@ -7,12 +7,9 @@ tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/d�
     dJ/dθ = λ · ∂(f − f_int)/∂θ + ∂J/∂u · dg/dθ                                          (`pullback`).
 
 The derivatives by fields over the cells (`lumped.cell_fields`) are a sparse product of λ · ∂f_int/∂(constants
-of the springs), one loop with each law's own derivatives; by E and ρ of an even sheet they are its sums, and
-by loads they need λ alone. Other parameters of the scene have ∂R/∂θ as a central difference of the residual
-at fixed q, of springs, supports and loads made anew on both sides, which a lattice keeps. The residual is
-linear in every spring constant, and its difference is exact but for rounding; in the thickness, ν, a layer
-distance, a curvature or a tilt its relative error is of order 1e-8. Masses that touch an obstacle go on
-touching it, and a load at a line of the grid, where its shares have a kink, has the mean of both sides.
+of the springs), one loop with each law's own derivatives; by E and ρ of an even sheet they are its sums.
+Other parameters of the scene have ∂R/∂θ as a central difference of the residual at fixed q
+(`lumped.parameter_sides`). Masses that touch an obstacle go on touching it.
 
 Names: the parameters of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …;
 "material.young" and "sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, …
@@ -21,9 +18,8 @@ in each direction), layer_distance; "cells.young", … over all cells; "forces" 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from copy import copy
-from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -32,46 +28,28 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.assembly import Assembly
-from lumped.calibration import MAKERS, Calibration
+from lumped.calibration import Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
 from lumped.contact import middle
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
+from lumped.parameter_sides import Calibrate, Sides, both_sides
 from lumped.pattern import SHARED_UP_TO
-from lumped.pretension import calibrated_at_rest
-from lumped.sections import sections_of
 from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput, NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.parameters import FIBRES, OF_LAWS, names_of, parameter, put, short_name
+from sheetbench.scenes.meaning.parameters import names_of, short_name
 
-STEP = 1e-5  # of a parameter, for the difference of residuals
-# beginnings of names of what springs follow from
-CALIBRATED_FROM: tuple[str, ...] = ("young", "poisson", "thickness", *FIBRES, *OF_LAWS, "patch", "layer")
-CALIBRATED_FROM += ("temperature", "natural.e", "natural.p")
-STEP_OF = {"curvature": 1e-4, "tilt_": 1e-5, "angle": 1e-5}  # 1/m and rad, of parameters that may be zero
-STEP_OF |= {"natural.k": 1e-3, "natural.e": 1e-6, "obstacle": 1e-10}  # m, of contacts that press in by 1e-8 m
-STEP_OF |= {
-    "load": 1e-6,
-    "gravity": 1e-4,
-    "support": 1e-8,
-    "actuator": 1e-8,
-    "temperature": 1e-3,
-    "poisson": 4e-6,
-}
-PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
 FIELD = "cells."
 FORCES = "forces"
 OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
 
 
-Calibrate = Callable[[Scene], Calibration]
 Values = Mapping[str, np.ndarray]
-Sides = tuple[list[tuple[Problem, Calibration]], float]  # as of `both_sides`
 
 
 class Plain:
@@ -293,65 +271,3 @@ def rates(
         found.append((left.force, placed, left.reduced))
     force, moved, rows = ((up - down) / over for down, up in zip(*found, strict=True))
     return force, moved, rows
-
-
-def both_sides(
-    calibration: Calibration,
-    problem: Problem,
-    name: str,
-    calibrate: Calibrate | None = None,
-    share: float = 0.0,
-) -> Sides:
-    """Return the problem and springs a little below and above a parameter, and the distance between both;
-    share: of its value, for steps by that share."""
-    scene, name = problem.scene, short_name(name)
-    if of_springs := name in (*calibration.constants.names(), "layer_distance"):
-        value, low, high = calibration.constants.value(name), -np.inf, np.inf
-    else:
-        entry = parameter(scene, name)
-        value, low, high = entry.value, entry.low, entry.high
-    key = name.partition(".")[2] if name.startswith(PATCH) else name
-    if scene.obstacles and key == "thickness":  # which moves the surface that presses in
-        key = OBSTACLE
-    step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
-    step = share * abs(value) or step
-    if step == 0.0:
-        raise BadInput(f"parameter {name!r} is zero: differences need a scale")
-    sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
-    for end in ends:
-        if of_springs:
-            side, springs = scene, calibration.with_constant(name, end)
-        else:
-            side, springs = of_changed(scene, calibration, name, end, calibrate, name.startswith(EDGES))
-        sides.append((build_problem(side, springs, previous=problem), springs))
-    return sides, ends[1] - ends[0]
-
-
-def of_changed(
-    scene: Scene,
-    calibration: Calibration,
-    name: str,
-    value: float,
-    calibrate: Calibrate | None,
-    checked: bool = True,
-) -> tuple[Scene, Calibration]:
-    """Return the scene with another value (`put`), and its springs, calibrated again if they depend
-    on it."""
-    begins_on = name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
-    changed = put(scene, name, value, checked and not begins_on)
-    grid, grading, material = calibration.grid, calibration.grading, changed.material
-    if not name.startswith(CALIBRATED_FROM):
-        if name != "density" or calibration.cells is None:
-            return changed, calibration
-        return changed, replace(calibration, cells=sections_of(changed, grid, grading))
-    if calibrate is not None:
-        return changed, calibrate(changed)
-    if calibration.method not in MAKERS:
-        raise BadInput(
-            f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
-        )
-    own: dict[str, Any] = {"grading": grading} if grading else {}
-    if (cells := sections_of(changed, grid, grading)) is not None:
-        own["cells"] = cells
-    make = MAKERS[calibration.method]
-    return changed, calibrated_at_rest(changed, lambda sheet: make(sheet, material, grid, **own))

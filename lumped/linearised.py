@@ -34,9 +34,10 @@ from scipy.sparse.linalg import splu
 
 from lumped.calibration import Calibration, default
 from lumped.dynamics.system import System
-from lumped.gradient import both_sides, rates
+from lumped.gradient import rates
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
+from lumped.parameter_sides import both_sides
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium

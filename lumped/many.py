@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.gradient import FIELD, FORCES, Calibrate
+from lumped.gradient import FIELD, FORCES
+from lumped.parameter_sides import Calibrate
 from lumped.sensitivity import Differentiable
 from lumped.springs import all_families
 from lumped.springs.all_families import SpringArrays, Stresses, stiffness_by_cells

@@ -104,7 +104,7 @@ def _near_rims(
     reach = REACH + 1
 
     def places(at: np.ndarray, row: int, column: int) -> np.ndarray:
-        """Plan points (n, 2) [m] from the middle of a cell in its sides."""
+        """Return plan points (n, 2) [m] from the middle of a cell in its sides."""
         first, sides = np.array([x.at[column], y.at[row]]), np.array([x.widths[column], y.widths[row]])
         return np.asarray((at - first) / sides - 0.5)
 

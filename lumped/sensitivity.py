@@ -9,8 +9,9 @@ import numpy as np
 
 from lumped.calibration import Calibration, default
 from lumped.contact import middle
-from lumped.gradient import FIELD, FORCES, Calibrate, Equilibrium, Gradient, Plain, of_changed
+from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient, Plain
 from lumped.mid_surface import MidSurface
+from lumped.parameter_sides import Calibrate, of_changed
 from lumped.statics.problem import LatticePath, Problem
 from lumped.statics.solver import solve_path
 from sheetbench.answers.solution import Status

@@ -29,7 +29,7 @@ waves = 4e-3 * np.stack([np.sin(2.0 * np.pi * y / side), np.cos(2.0 * np.pi * y 
 
 
 def edge_of(design):
-    """Height (9,) [m] of the free edge with curvatures (32,) of the patches."""
+    """Return the height (9,) [m] of the free edge with curvatures (32,) of the patches."""
     cells = jnp.repeat(jnp.repeat(design.reshape(4, 4, 2), 2, axis=0), 2, axis=1)
     u = solve(sheet, {"cells.curvature": jnp.pad(cells, ((0, 0), (0, 0), (0, 1)))})
     return (to_edge @ u.ravel()).reshape(-1, 3)[:, 2]
@@ -43,7 +43,7 @@ def network(weights, wave):
 @jax.jit
 @jax.value_and_grad
 def loss(weights, batch):
-    """Mean square [mm²] of what the edges miss, and a little for curvature."""
+    """Return the mean square error [mm²] of the edges plus a small penalty of curvature."""
     designs = jnp.stack([network(weights, wave) for wave in batch])
     missed = jnp.stack([edge_of(design) for design in designs]) - batch @ waves
     return 1e6 * jnp.mean(missed**2) + 1e-5 * jnp.mean(designs**2)

@@ -46,7 +46,7 @@ class FElupe(Code):
     settings: ClassVar[dict[str, Any]] = {"elements": 8, "layers": 2, "grading": "edges"}
 
     def version(self) -> str | None:
-        """Of the package, None where it is not installed."""
+        """Return the version of FElupe, None where it is not installed."""
         try:
             return metadata.version("felupe")
         except metadata.PackageNotFoundError:
@@ -64,7 +64,7 @@ class FElupe(Code):
 
 
 def _law(material: Material) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """First Piola–Kirchhoff stress P = F S of F (3, 3, …), and dP/dF (3, 3, 3, 3, …)."""
+    """Return the first Piola–Kirchhoff stress P = F S of F (3, 3, …), and dP/dF (3, 3, 3, 3, …)."""
     response = _linear(material) if material.law is None else _rubber(material)
 
     def stress(x: Any) -> Any:
@@ -82,7 +82,7 @@ Response = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]  # F → S (3, 
 
 
 def _linear(material: Material) -> Response:
-    """S = λ tr E + 2 μ E."""
+    """Return S = λ tr E + 2 μ E."""
     young, poisson = material.young, material.poisson
     shear = young / (2.0 * (1.0 + poisson))
     first = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
@@ -97,7 +97,7 @@ def _linear(material: Material) -> Response:
 
 
 def _rubber(material: Material) -> Response:
-    """S = 2 (f′ + c₀₁ I₁) − 2 c₀₁ C + (Λ ln J − m) C⁻¹ of the energy of `scenes.objects.material`."""
+    """Return S = 2 (f′ + c₀₁ I₁) − 2 c₀₁ C + (Λ ln J − m) C⁻¹ of the energy of `scenes.objects.material`."""
     energy, bulk = material.energy, material.energy.volume(material.poisson)
 
     def response(f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -127,7 +127,7 @@ Equilibrium = Callable[[np.ndarray, float], tuple[np.ndarray, csr_matrix]]
 
 
 def _equilibrium(scene: Scene, bricks: Bricks) -> Equilibrium:
-    """Displacement (n, 3) [m] and load factor → residual (3 n,) [N] and its tangent."""
+    """Return the function of displacement (n, 3) [m] and load factor: residual (3 n,) [N] and its tangent."""
     import felupe
 
     stress, elasticity = _law(scene.material)
@@ -188,8 +188,8 @@ def _traced(equilibrium: Equilibrium, supports: Held) -> _Path:
 
 
 def _free(supports: Held) -> csr_matrix:
-    """T (3 n, free): the displacement of the free components along the nodes' axes, and of the nodes that are
-    tied to others of their column."""
+    """Return T (3 n, free): the displacement of the free components along the nodes' axes, and of the nodes
+    that are tied to others of their column."""
     free = ~supports.fixed
     for tie in supports.tied:
         free[tie.nodes[0], tie.axis] = False

@@ -135,13 +135,13 @@ class _Grid:
         return i, j
 
     def number(self, rest: np.ndarray) -> np.ndarray:
-        """Number j nx + i of vertices at rest (n, 3) [m]; −1 beyond the sheet."""
+        """Return the number j nx + i of vertices at rest (n, 3) [m]; −1 beyond the sheet."""
         i, j = self._indices(rest)
         inside = (i >= 0) & (i < self.nx) & (j >= 0) & (j < self.ny)
         return np.where(inside, j * self.nx + i, -1)
 
     def masses(self, rest: np.ndarray) -> np.ndarray:
-        """Tributary masses and what payloads add (n,) [kg]."""
+        """Return tributary masses with payloads (n,) [kg]."""
         i, j = self._indices(rest)
         share = np.where((i == 0) | (i == self.nx - 1), 0.5, 1.0) * np.where(
             (j == 0) | (j == self.ny - 1), 0.5, 1
@@ -153,7 +153,7 @@ class _Grid:
         return masses
 
     def forces(self, rest: np.ndarray) -> np.ndarray:
-        """Point loads (n, 3) [N], shared bilinearly."""
+        """Return point loads (n, 3) [N], shared bilinearly."""
         force = np.zeros_like(rest)
         for load in self.scene.loads:
             if isinstance(load, PointLoad):
@@ -161,7 +161,7 @@ class _Grid:
         return force
 
     def _shares(self, rest: np.ndarray, at: PlanPoint | None) -> np.ndarray:
-        """What vertices take of what is at a plan point [m], bilinearly, (n,)."""
+        """Return the bilinear shares (n,) of the vertices at a plan point [m]."""
         away = np.abs(rest[:, :2] - np.array(at)) / self.spacing
         return np.asarray(np.prod(np.clip(1.0 - away, 0.0, None), axis=1))
 

@@ -102,7 +102,7 @@ def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
 
 
 def _sample(sample: Any, mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> np.ndarray:
-    return np.asarray(sample(points) + tangent_planes.lent(mesh, vectors, points)[1])
+    return np.asarray(sample(points) + tangent_planes.change_at(mesh, vectors, points)[1])
 
 
 def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:

@@ -66,7 +66,7 @@ def first(vectors: np.ndarray) -> np.ndarray:
     return np.einsum("vekicd,kivj->ekicjd", by, LINEAR, optimize=True).reshape(-1, 18, 3, 18, 3)
 
 
-def lent(mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, ...]:
+def change_at(mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, ...]:
     """Return the elements (p,) at plan points (p, 2), the change P − φ (p, 3) of the surface there, and the
     change's derivatives (p, 3, 18, 3) by the elements' vectors. Raises BadInput off the mesh."""
     on, place = locate(mesh, points)

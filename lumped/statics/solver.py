@@ -10,8 +10,9 @@ import numpy as np
 
 from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
-from lumped.gradient import Calibrate, Equilibrium
+from lumped.gradient import Equilibrium
 from lumped.lattice import Weights
+from lumped.parameter_sides import Calibrate
 from lumped.statics import validity
 from lumped.statics.answer import solution
 from lumped.statics.build import build_problem

@@ -120,7 +120,7 @@ def sampled(shape, points):
     found = shape.sheet.sample(shape.sheet.displacement(shape.q), points)
     if not shape.sheet.touched_without_kinks:
         return found
-    return found + tangent_planes.lent(shape.sheet.plan.mesh, shape.vectors, points)[1]
+    return found + tangent_planes.change_at(shape.sheet.plan.mesh, shape.vectors, points)[1]
 
 
 def sensitivity(scene, model="shell", elements=3):

@@ -234,7 +234,7 @@ def test_a_field_is_that_of_the_scene_that_has_it():
 
 # what the first gradient of a scene makes: both sides of ν and h, of gravity along x, y and z, and of a tilt
 COUNTED = {
-    "lumped.gradient.build_problem": 12,
+    "lumped.parameter_sides.build_problem": 12,
     "lumped.pretension.sheet_at_rest": 4,  # of springs
     "lumped.assembly.build": 0,  # of plans
     "lumped.assembly.springs_of": 4,

@@ -229,12 +229,12 @@ class Esdirk(Integrator):
         return Advance(end, float(taken), float(put_in))
 
     def _power(self, state: State) -> np.ndarray:
-        """Power [W] that dampers take and that is put in from a state on."""
+        """Return the power [W] that dampers take and the power put in, from a state on."""
         return np.array([self.system.power(state), self._put_in(state)])
 
     def _put_in(self, stage: State, before: bool = False) -> float:
-        """Power [W] put in by moving supports, without the acceleration of their own masses, and by loads
-        without a potential, from a moment on, or until then."""
+        """Return the power [W] put in by moving supports, without the acceleration of their own masses, and
+        by loads without a potential, from a moment on, or until then."""
         system, motion, put_in = self.system, self.system.prescribed, 0.0
         if motion.moving:
             put_in += float(np.sum(system.exerted(stage) * motion.rate(stage.time, before=before)))

@@ -26,8 +26,8 @@ from lumped.dynamics.implicit.tableau import GAMMA, GUESSES, STAGES
 from lumped.dynamics.integrator import LatticeSamples
 from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.system import State, System
-from lumped.gradient import both_sides
 from lumped.lattice import Weights
+from lumped.parameter_sides import both_sides
 from lumped.statics.build import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, StepFailed

@@ -104,7 +104,7 @@ class SheetSensitivity:
         element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
         out = np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
-        if not self.sheet.touched_without_kinks:
+        if not self.sheet.touched_without_kinks(self.shape):
             return self.pullback(out)
         on, _, by = self._surface_change(points)
         return self.pullback(out, self.sheet.of_surface(on, np.einsum("pijc,pi->pjc", by, weights)))
@@ -142,7 +142,7 @@ class SheetSensitivity:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
         sheet, moved = self.sheet, self._moved({name: 1.0})
         found = sheet.sample(sheet.displacement(moved), np.asarray(points))
-        if not sheet.touched_without_kinks:
+        if not sheet.touched_without_kinks(self.shape):
             return found
         on, _, by = self._surface_change(points)
         return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(moved)[on])

@@ -27,6 +27,7 @@ from typing import Any, ClassVar
 import numpy as np
 import scipy.sparse as sp
 
+from lumped.actuators import Drive
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
@@ -177,8 +178,9 @@ class Equilibrium:
         return self._middle(points).of(self.pushforward({name: 1.0}))
 
     def _middle(self, points: np.ndarray) -> MidSurface:
-        problem = self.problem
-        return middle(problem.contacts, problem.assembly.lattice, self.u, np.asarray(points, float))[1]
+        at = self.u, Drive(1.0)
+        touching = [one for one in self.problem.contacts if one.touches(at)]
+        return middle(touching, self.problem.assembly.lattice, self.u, np.asarray(points, float))[1]
 
     def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""

@@ -89,8 +89,8 @@ class SheetSensitivity:
     @cached_property
     def fields(self) -> list[str]:
         """The names of derivatives that have a value an element."""
-        own = [name for name in self.values if name not in (LAW, *STRAIN)]
-        own = [name for name in own if not name.endswith((".low", ".high"))]
+        others = (LAW, *STRAIN, ".low", ".high")
+        own = [name for name in self.values if not name.endswith(others)]
         natural = () if isinstance(self.sheet.element, HyperelasticElement) else STATE
         return [FIELD + name for name in (*own, *natural)]
 

@@ -33,7 +33,7 @@ from lumped.calibration.consistent import special
 from lumped.masses import shares_of_layers
 from lumped.natural import grown
 from lumped.natural import rates as natural_rates
-from lumped.sections import CellSection, of_cells, twisting
+from lumped.sections import CellSection, of_cells, ratio, twisting
 from lumped.spring_constants import EDGES_OWN, NEAR_EDGES, NONE, RIMS_OWN, Springs
 from lumped.springs.all_families import (
     AllFamilies,
@@ -80,18 +80,12 @@ class CellFields:
     def base(self) -> dict[str, np.ndarray]:
         """The fields as they are, by the names of the module's text without "cells."."""
         section, share = self.section, 1.0 if self.section.share is None else self.section.share
-        own, bent = section.membrane[..., 0, 0], section.bending[..., 0, 0]
-        there = own > 0.0
-
-        def over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
-            return np.divide(part, whole, out=np.zeros_like(part), where=there)
-
-        poisson = over(section.membrane[..., 0, 1], section.membrane[..., 1, 1])
-        thickness = np.sqrt(over(12.0 * bent, own))
-        whole = np.where(there, thickness * share, 1.0)
-        free = own - over(section.membrane[..., 0, 1] ** 2, section.membrane[..., 1, 1])
-        found = {"young": free / whole, "poisson": poisson, "thickness": thickness}
-        return found | {"density": section.per_area / whole, **dict(zip(STATE, self._state(), strict=True))}
+        form, bent = section.membrane, section.bending[..., 0, 0]
+        thickness = np.sqrt(ratio(12.0 * bent, form[..., 0, 0]))
+        free = form[..., 0, 0] - ratio(form[..., 0, 1] ** 2, form[..., 1, 1])
+        young, density = (ratio(of, thickness * share) for of in (free, section.per_area))
+        found = {"young": young, "poisson": ratio(form[..., 0, 1], form[..., 1, 1]), "thickness": thickness}
+        return found | {"density": density, **dict(zip(STATE, self._state(), strict=True))}
 
     def _state(self) -> tuple[np.ndarray, np.ndarray]:
         if self.assembly.natural is None:
@@ -107,11 +101,10 @@ class CellFields:
         if not fields.keys() & {*NUMBERS}:
             return section
 
-        def ratio(name: str) -> np.ndarray:
-            whole = np.where(base[name] != 0.0, base[name], 1.0)
-            return np.asarray(fields.get(name, base[name]) / whole)[..., None, None]
-
-        e, t = ratio("young"), ratio("thickness")
+        changes = (
+            ratio(fields.get(name, base[name]), base[name]) for name in ("young", "thickness", "density")
+        )
+        e, t, rho = (change[..., None, None] for change in changes)
         membrane, bending, shear = section.membrane * e * t, section.bending * e * t**3, section.shear * e * t
         if "poisson" in fields:
             if self.scene.material.kind == "orthotropic" or self.scene.layers:
@@ -124,7 +117,7 @@ class CellFields:
                 by * (form + (now - was) * form[..., 1:2, 1:2] * coupling) for form in (membrane, bending)
             )
             shear = shear * (1.0 + was) / (1.0 + now)
-        mixed, per_area = section.mixed * e * t**2, section.per_area * (t * ratio("density"))[..., 0, 0]
+        mixed, per_area = section.mixed * e * t**2, section.per_area * (t * rho)[..., 0, 0]
         parts = {"membrane": membrane, "bending": bending, "shear": shear, "mixed": mixed}
         return replace(section, **parts, per_area=per_area)
 
@@ -144,8 +137,7 @@ class CellFields:
                     which = f"springs of '{self.calibration.method}', not in closed form"
                     raise BadInput(f"cells.poisson, cells.thickness: {which}")
         else:
-            there = np.where(young > 0.0, young, 1.0)
-            inside = [constants.scaled(fields.get("young", young) / there) for fields in each]
+            inside = [constants.scaled(ratio(fields.get("young", young), young)) for fields in each]
         return [self._with_edges(cells, springs) for cells, springs in zip(sections, inside, strict=True)]
 
     def _with_edges(self, cells: CellSection, springs: Springs) -> Springs:
@@ -220,7 +212,7 @@ class CellFields:
             found -= np.bincount(cells, rates * powers[constants], base.size).reshape(base.shape)
         if name in ("density", "thickness") and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
-            per_area = self.changed_section(fields).per_area / np.where(base > 0.0, base, 1.0)
+            per_area = ratio(self.changed_section(fields).per_area, base)
             found = found + per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
         return found
 

@@ -16,6 +16,7 @@ circle the second part is 0, the first its sagitta but for 3/8 R α⁴, α half 
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
@@ -100,10 +101,14 @@ class CurvedSurface(MidSurface):
         super().__init__(lattice, points, order=1)
         self._nodes, self._by = nodes, by
 
+    def matrix(self, size: int) -> sp.csr_array:
+        rows = np.arange(3 * len(self._nodes)).reshape(-1, 3, 1, 1)
+        places = np.broadcast_arrays(rows, 3 * self._nodes[:, None, :, None] + np.arange(3))
+        curves = sp.coo_array((self._by.ravel(), [at.ravel() for at in places]), (rows.size, 3 * size))
+        return sp.csr_array(super().matrix(size) + curves)
+
     def of(self, field: np.ndarray) -> np.ndarray:
-        return super().of(field) + np.einsum("kiaj,kaj->ki", self._by, field[self._nodes])
+        return np.reshape(self.matrix(len(field)) @ field.ravel(), (-1, 3))
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
-        out = super().shared(values, size)
-        np.add.at(out, self._nodes, np.einsum("kiaj,ki->kaj", self._by, values))
-        return out
+        return np.reshape(values.ravel() @ self.matrix(size), (size, 3))

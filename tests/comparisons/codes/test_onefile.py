@@ -215,6 +215,20 @@ def test_the_step_is_stable_and_a_fifth_more_is_not(name, tmp_path):
 
 
 @needs_gcc
+@pytest.mark.sweep(3)
+@pytest.mark.parametrize("name", [name for name in SCENES if name not in ("muscles", "napkin")])
+def test_it_comes_to_rest_in_the_equilibrium(name, tmp_path):
+    """Also where loads follow the sheet, obstacles touch it, or its natural state is not flat."""
+    scene, settings = SCENES[name]
+    springs = calibrated(scene, **({"grid": (5, 3)} | settings))
+    sheet = Sheet(tmp_path, program(scene, springs, "double", 20))
+    known = np.ravel([*lumped.solve(scene, springs).probes.values()])
+    assert sheet.call("rest", 200_000) > 0
+    assert np.abs(sheet.row()[: len(known)] - known).max() < 1e-6 * np.abs(known).max()
+    assert sheet.call("rest", 200_000) < 100 and sheet.call("rest", 0) == 0
+
+
+@needs_gcc
 @pytest.mark.parametrize("what", ["force", "support", "natural"])
 def test_inputs_are_what_a_scene_would_say(what, tmp_path):
     """What a call sets from the first step on, against a scene in which it comes up within that step; two

@@ -15,17 +15,12 @@ import tempfile
 import uuid
 import zipfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
 from comparisons.codes.files import script
-from comparisons.codes.onefile import Program, program
+from comparisons.codes.onefile import Program
 from sheetbench.answers.report import Write
 from sheetbench.files import replacing
-from sheetbench.scenes import Scene
-
-if TYPE_CHECKING:
-    from lumped import Calibration
 
 UNITS = {"m": 'm="1"', "s": 's="1"', "m/s2": 'm="1" s="-2"'}
 UNITS |= {"N": 'kg="1" m="1" s="-2"', "J": 'kg="1" m="2" s="-2"'}
@@ -82,12 +77,11 @@ def library(texts: dict[str, str]) -> dict[str, bytes]:
         return {} if failed else {place: Path(folder, "out").read_bytes()}
 
 
-def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[dict[str, Write], list[str]]:
-    """Return the file of `--for fmu`, and its missing parts. Raises BadInput as `program`."""
-    of = program(scene, calibration, precision)
+def fmu_files(name: str, of: Program) -> tuple[dict[str, Write], list[str]]:
+    """Return the file of `--for fmu` of a scene, and its missing parts."""
     sources = {name: of.texts[name] for name in ("sheet.h", "sheet.c")} | {"fmi3.c": script("fmi3.c")}
     built = library(sources)
-    content: dict[str, str | bytes] = {"modelDescription.xml": description(scene.name, of), **built}
+    content: dict[str, str | bytes] = {"modelDescription.xml": description(name, of), **built}
     content |= {f"sources/{name}": text for name, text in (sources | {"buildDescription.xml": BUILD}).items()}
     missing = [] if built else ["no working compiler: sheet.fmu has its sources only"]
     return {"sheet.fmu": functools.partial(write_zip, content=content)}, missing

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from string import Template
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,9 +17,7 @@ import numpy as np
 import lumped
 from comparisons.codes.c_tables import PRECISIONS, WHOLE, Tables, identifiers
 from comparisons.codes.files import script
-from sheetbench.answers.files import write_text
 from sheetbench.answers.history import ENERGIES
-from sheetbench.answers.report import Write
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, require_no_branches, tilt_axes
 from sheetbench.scenes.meaning.natural_state import sources_of
@@ -90,7 +87,7 @@ def program(
     add_masses(tables, system)
     add_loads(tables, system, calibration, steady.acceleration)
     add_contact(tables, system)
-    grown = add_growth(tables, system)
+    add_growth(tables, system)
     motions = [tables.curve(body.motion, "displacement") for body in (*scene.supports, *scene.obstacles)]
     loads = dict.fromkeys(one.history for one in (scene.gravity, *scene.loads) if one and one.history)
     histories = [tables.curve(one, "factor") for one in (*(source.of.history for source in sources), *loads)]
@@ -102,8 +99,8 @@ def program(
     tables.add("START", start.u if start.u.any() else start.u[:1])
     sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
     sizes |= {"SOURCES": len(sources), "LOADS": len(loads), "MASSES": n, "ROWS": size, "LAYERS": layers}
-    sizes |= {"COLUMNS_X": nx, "COLUMNS_Y": ny, "AIR": size if scene.air else 0, "GROWN": grown}
-    sizes["TOUCHING"] = tables.sizes["CONTACTS"]
+    sizes |= {"COLUMNS_X": nx, "COLUMNS_Y": ny, "AIR": size if scene.air else 0}
+    sizes |= {name: tables.sizes.pop(name) for name in ("CONTACTS", "GROWN")}
     numbers = [f"SHEET_{name} = {size}" for name, size in sizes.items()]
     numbers += [f"SHEET_{kind}_{name} = {k}" for kind, of in names.items() for k, name in enumerate(of)]
     rubber = system.assembly.any_strain
@@ -254,10 +251,8 @@ def add_contact(tables: Tables, system: System) -> None:
     tables.add("CONTACT", np.concatenate(bodies))
     tables.add("POINT_AT", middle_of(system, np.concatenate(columns)))
     tables.add_distinct("POINT", np.concatenate(rows))
-    radii = [0.0 if isinstance(body, Plane) else body.radius for body in obstacles]
-    pairs = zip(obstacles, radii, strict=True)
-    shapes = [[*o.position, *o.direction, radius, o.contact_damping, o.friction] for o, radius in pairs]
-    tables.add("OBSTACLE", np.reshape(shapes, (-1, 9)))
+    shapes = [[*o.position, *o.direction, o.radius, o.contact_damping, o.friction] for o in obstacles]
+    tables.add("OBSTACLE", np.nan_to_num(np.reshape(shapes, (-1, 9)), posinf=0.0))
     tables.add("BLOCK", np.concatenate(blocks), "int")
     if tables.sizes["BLOCKS"]:
         (x, wx), (y, wy) = (np.polynomial.legendre.leggauss(order) for order in (4, 16))
@@ -265,10 +260,9 @@ def add_contact(tables: Tables, system: System) -> None:
         tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * wy], axis=1))
 
 
-def add_growth(tables: Tables, system: System) -> int:
+def add_growth(tables: Tables, system: System) -> None:
     """Add the springs' measures without stress, a quadratic form of the factors of natural states: of each
-    alone, and of the products with itself and those before. Return the number of measures, 0 of a sheet that
-    is flat at rest."""
+    alone, and of the products with itself and those before; none of a sheet that is flat at rest."""
     state: Any = system.assembly.natural
     dampers = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
 
@@ -284,10 +278,4 @@ def add_growth(tables: Tables, system: System) -> int:
         products = [measured(*(unit + other)) - plus - measured(*other) for other in units[:number]]
         terms += [0.5 * (plus - minus), *products, 0.5 * (plus + minus)]
     tables.add("GROWTH", terms or np.empty((0, 1)))
-    return len(terms[0]) if terms else 0
-
-
-def c_files(scene: Scene, calibration: Calibration, precision: str) -> dict[str, Write]:
-    """Return the files of `--for c`."""
-    files = program(scene, calibration, precision).texts
-    return {name: partial(write_text, text=text) for name, text in files.items()}
+    tables.sizes["GROWN"] = len(terms[0]) if terms else 0

@@ -8,7 +8,7 @@ enum { P = SHEET_LAYERS, N = SHEET_MASSES, ROWS = SHEET_ROWS, LOADED = SHEET_SUP
 #define MASSES(i) for (int i = 0; i < N; i++)
 #define FROM(i, j, e) (real)(SHEET_REST[j][e] - SHEET_REST[i][e] + (s->u[j][e] - s->u[i][e]))
 enum { $sizes };
-static const int SYMMETRIC[3][3] = {{1, 4, 5}, {4, 2, 6}, {5, 6, 3}}; /* stiffness of strains in a cell's row */
+static const unsigned char SYMMETRIC[3][3] = {{1, 4, 5}, {4, 2, 6}, {5, 6, 3}}; /* stiffness of strains in a cell's row */
 $tables
 static real root(real x) { return (real)sqrt((double)x); }
 static real dot(const real *x, const real *y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
@@ -115,7 +115,7 @@ static void push(sheet *s, int m, const real on[3]) { /* a point of the sheet, w
 }
 static double contact(sheet *s) { /* adds to f what obstacles press with; returns the energy */
   double energy = 0;
-  for (int m = 0; m < SHEET_TOUCHING; m++) {
+  for (int m = 0; m < SHEET_CONTACTS; m++) {
     const int o = CONTACT[m];
     const real *k = POINT_ROW[POINT_OF[m]], *body = OBSTACLE[o]; /* shares of columns, offset, stiffness, rounded depth */
     real *to = s->touch[m]; /* -d depth/dx, depth, load, load as friction has it */
@@ -134,7 +134,7 @@ static double contact(sheet *s) { /* adds to f what obstacles press with; return
     energy += k[5] * (curved * curved * curved / (6 * k[6]) + sure * (sure + k[6]) / 2);
   }
   for (int m = 0; m < BLOCKS; m++) energy += patch(s, BLOCK[m]);
-  for (int m = 0; m < SHEET_TOUCHING; m++) {
+  for (int m = 0; m < SHEET_CONTACTS; m++) {
     const real load = s->touch[m][4], on[3] = {load * s->touch[m][0], load * s->touch[m][1], load * s->touch[m][2]};
     if (load != 0) push(s, m, on);
   }
@@ -149,7 +149,7 @@ static void resist(sheet *s, field velocity, real sign) { /* adds to f, so many 
     const real size = root(dot(area, area)), speed = size > 0 ? dot(v, area) / size : 0;
     EACH(e) s->f[i][e] += sign * DRAG[i] * (speed < 0 ? -speed : speed) * speed * area[e];
   }
-  for (int m = 0; m < SHEET_TOUCHING; m++) {
+  for (int m = 0; m < SHEET_CONTACTS; m++) {
     const int o = CONTACT[m];
     const real *to = s->touch[m], *k = POINT_ROW[POINT_OF[m]], size = root(dot(to, to)), tau = OBSTACLE[o][7];
     if (to[5] == 0) continue;
@@ -239,7 +239,7 @@ void sheet_step(sheet *s, int count) {
     }
     s->time += (double)h;
     move_all(s, h), follow(s), forces(s), accelerate(s, h / 2);
-    if (DAMPED + RATED + SHEET_AIR + SHEET_TOUCHING == 0) continue;
+    if (DAMPED + RATED + SHEET_AIR + SHEET_CONTACTS == 0) continue;
     resist(s, s->w, -1), resist(s, s->v, 1);
     for (int i = 0; i < ROWS; i++) EACH(e) s->w[i][e] = s->v[i][e] - s->w[i][e];
     if (DAMPED) springs(s, s->w, 0);
@@ -247,12 +247,13 @@ void sheet_step(sheet *s, int count) {
   }
 }
 int sheet_rest(sheet *s, int most) { /* a motion that is stopped whenever it becomes slower */
-  double motion = 0;
+  double motion = 0, fastest = 0;
   for (int n = 1; n <= most; n++) {
     const double before = motion;
     sheet_step(s, 1), motion = (double)sheet_energy(s, SHEET_KINETIC);
     if (motion > before) continue;
-    if (before <= (sizeof(real) == 8 ? 1e-20 : 1e-12) * s->stored) return n;
+    fastest = before > fastest ? before : fastest;
+    if (before <= (sizeof(real) == 8 ? 1e-20 : 1e-10) * (fastest + s->stored)) return n;
     MASSES(i) EACH(e) if (!OWNER[i][e]) s->v[i][e] = 0;
     motion = 0;
   }

@@ -19,7 +19,7 @@ typedef struct {
   sheet_real step, input[SHEET_INPUTS + SHEET_LOADS]; /* s, may be shorter than SHEET_STEP; gravity may be written to */
   double u[SHEET_ROWS][3], v[SHEET_ROWS][3], a[SHEET_MASSES][3]; /* m, m/s, m/s^2; in double numbers always */
   double f[SHEET_ROWS][3], w[SHEET_ROWS][3], area[SHEET_AIR + 1][3], stored, fallen; /* the rest is the steps' own */
-  sheet_real touch[SHEET_TOUCHING + 1][6], grown[SHEET_GROWN + 1];
+  sheet_real touch[SHEET_CONTACTS + 1][6], grown[SHEET_GROWN + 1];
   double path[SHEET_BODIES + 1][3][3], pressed[SHEET_BODIES + 1][3];
   unsigned char moved[SHEET_BODIES + 1], set[SHEET_SOURCES + SHEET_LOADS + 1], changed;
 } sheet;

@@ -42,8 +42,8 @@ def solution(
     at = u, Drive(state.load_factor)
     reactions |= {item.name: item.exerted(at).sum(axis=0) for item in problem.items}
     contacts = {item.name: item.report(at) for item in problem.contacts}
-    pressure = np.sum([pressure for _, pressure in contacts.values()], axis=0)
-    pressed = {"contact_pressure": pressure} if contacts else {}
+    pressures = [pressure for _, pressure in contacts.values()]
+    pressed = {"contact_pressure": np.sum(pressures, axis=0)} if contacts else {}
     return Solution(
         model="lumped",
         label=f"lumped {calibration.title}" + (", linear" if linear else ""),

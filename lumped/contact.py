@@ -219,8 +219,9 @@ class Contact(LatticeItem):
         np.add.at(by, back, change.swapaxes(1, 2) @ slope[cell, group] @ change)
         loads = self._at_points(load[on])
         if not definite:
-            both = np.einsum("mp,pa,pb->mab", loads / near.touch[on], shares, shares, optimize=True)
-            by -= np.einsum("mab,ij->maibj", both, projector(self.obstacle)).reshape(by.shape)
+            bent = loads[..., None] * near.curvature[on]
+            both = np.einsum("mpj,pa,pb->mabj", bent, shares, shares, optimize=True)
+            by -= (both[:, :, None] * projector(self.obstacle)[:, None]).reshape(by.shape)
         if self.bent:
             sides, linear = sides[:, on], self.surface.linear
             first = self.surface.slopes(sides).reshape(-1, 36, 3 * LINEAR)

@@ -24,6 +24,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects.obstacles import Box
 from sheetbench.sources import version
 
 if TYPE_CHECKING:
@@ -176,6 +177,7 @@ def lattice_files(
     and for features that the code lacks."""
     import lumped
 
+    require_no_obstacles(scene, "an exported lattice", Box)
     if code in IN_MOTION:
         motion = program(scene, calibration, precision)
         if code == "fmu":

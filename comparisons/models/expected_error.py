@@ -44,7 +44,7 @@ from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
-from sheetbench.scenes.objects.obstacles import Sphere
+from sheetbench.scenes.objects.obstacles import Box, Sphere
 
 FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -130,10 +130,10 @@ def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
 
 
 def touched_around_points(scene: Scene, solution: Solution, grid: Grid) -> list[str]:
-    """Return the names of the balls that a solution touches on less than a cell of a grid."""
+    """Return the names of the balls and boxes that a solution touches on less than a cell of a grid."""
     cell = np.prod([length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True)])
     bodies, states = scene.named_obstacles(), solution.contacts.items()
-    return [name for name, one in states if 0.0 < one.area < cell and isinstance(bodies[name], Sphere)]
+    return [name for name, one in states if 0.0 < one.area < cell and isinstance(bodies[name], Sphere | Box)]
 
 
 def expected_error(

@@ -44,7 +44,6 @@ STEP = 1e-4  # of a parameter, or of 1 where it is zero
 FIELD, STATE = "elements.", ("strain", "curvature")
 UNITS = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
 PLACED = re.compile(r"(tilt|curvature)_|(gravity|natural|temperature|load|mass|support|actuator|obstacle)")
-OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 
 
 class SheetSensitivity:
@@ -90,21 +89,21 @@ class SheetSensitivity:
     @cached_property
     def fields(self) -> list[str]:
         """The names of derivatives that have a value an element."""
-        own = [name for name in self.values if name not in (LAW, *STRAIN)]
-        own = [name for name in own if not name.endswith((".low", ".high"))]
+        others = (LAW, *STRAIN, ".low", ".high")
+        own = [name for name in self.values if not name.endswith(others)]
         natural = () if isinstance(self.sheet.element, HyperelasticElement) else STATE
         return [FIELD + name for name in (*own, *natural)]
 
     def names(self) -> list[str]:
         """Return the names of all derivatives: of fields, and of `scenes.parameters`."""
-        return [*self.fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
+        return [*self.fields, *names_of(self.scene)]
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> SheetGradient:
         """Return the derivatives of a J with ∂J/∂u (p, 3) at plan points (p, 2)."""
         plan, mesh = np.asarray(points, dtype=float), self.sheet.plan.mesh
         (element, value), out = shares(mesh, plan), np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
-        if not self.sheet.touched_without_kinks:
+        if not self.sheet.touched_without_kinks(self.shape):
             return self.pullback(out)
         on, _, by = tangent_planes.change_at(mesh, self.shape.vectors, plan)
         return self.pullback(out, self.sheet.of_surface(on, np.einsum("pijc,pi->pjc", by, weights)))

@@ -33,7 +33,6 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.calibration import Calibration, default
-from lumped.contact import middle
 from lumped.dynamics.system import System
 from lumped.gradient import rates
 from lumped.loads import Loads
@@ -187,7 +186,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
         return full, sp.csc_array(motions.T @ full @ motions)
 
     (_, mass), (drag, damping), (spring, stiffness) = (reduced(*factors) for factors in np.eye(3).tolist())
-    _, probes = middle(problem.contacts, problem.assembly.lattice, u, scene.probe_points())
+    _, probes = problem.middle(u, scene.probe_points())
     outputs = [(name, axis) for name in scene.probes for axis in range(3)]
     observation = probes.matrix(len(u)).toarray()
     inputs, forces, rate_forces, displacements = _inputs(calibration, problem, u, observation, spring, drag)

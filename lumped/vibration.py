@@ -16,7 +16,6 @@ import scipy.sparse as sp
 
 from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
-from lumped.contact import middle
 from lumped.gradient import Equilibrium
 from lumped.masses import Inertia, mass_matrix
 from lumped.mid_surface import MidSurface
@@ -77,7 +76,7 @@ class Modes(NaturalModes):
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
-        _, at = self.surface(np.asarray(points, dtype=float))
+        _, at = self.surface(points)
         return np.stack([at.of(shape) for shape in self.shapes])
 
     def heading(self) -> tuple[str, str, str]:
@@ -174,8 +173,7 @@ def modes(
     elastic = values[rigid:], vectors[:, rigid:]
     gradient = partial(_frequency_gradient, bare, calibration, at, loaded, shared, *elastic)
     gradient_of = None if problem.prestrained and not loaded else gradient
-    surface = partial(middle, problem.contacts, problem.assembly.lattice, at)
-    return Modes(frequencies, shapes, rigid, unknowns, surface, gradient_of)
+    return Modes(frequencies, shapes, rigid, unknowns, partial(problem.middle, at), gradient_of)
 
 
 def _frequency_gradient(

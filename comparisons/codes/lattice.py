@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.codes.files import script, to_sofa
 from comparisons.codes.fmu import fmu_files
-from comparisons.codes.onefile import c_files
+from comparisons.codes.onefile import program
 from comparisons.codes.tables import NAMES, arrays, contacts, natural, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
@@ -179,9 +179,10 @@ def lattice_files(
 
     require_no_obstacles(scene, "an exported lattice", Box)
     if code in IN_MOTION:
+        motion = program(scene, calibration, precision)
         if code == "fmu":
-            return fmu_files(scene, calibration, precision)
-        return c_files(scene, calibration, precision), []
+            return fmu_files(scene.name, motion)
+        return {name: partial(write_text, text=text) for name, text in motion.texts.items()}, []
     if code == SOFA:
         require_flat_at_rest(scene, "--for sofa")
     if code in (SOFA, "cpp", "matlab"):

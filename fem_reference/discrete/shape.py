@@ -41,7 +41,7 @@ class SheetShape:
         change (N,) of coordinates."""
         sheet = self.sheet
         found: np.ndarray = sheet.sample(sheet.displacement(change), points)
-        if not sheet.touched_without_kinks:
+        if not sheet.touched_without_kinks(self):
             return found
         on, _, by = tangent_planes.change_at(sheet.plan.mesh, self.vectors, points)
         return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(change)[on])

@@ -130,6 +130,9 @@ def test_the_program_takes_the_steps_that_lumped_takes(name, tmp_path):
     sheet, stiffness = made(name, tmp_path)
     (moved, pulled, stored), (peak, force, energy) = off(sheet)
     assert moved < 1e-12 * peak and stored < 1e-12 * energy
+    # Each step rounds u. Half an ulp of its peak, once, moves the reactions of "uniform" by 8.7e-13 of theirs
+    # within 1000 steps in long double; from 2000 such steps the program is 2.1e-12 off and `lumped` 3.7e-12,
+    # whatever the order of sums. The bound is the stiffness times an ulp of the peak: 2.0e-11 there.
     assert pulled < 1e-12 * force + np.finfo(float).eps * stiffness * peak
 
 

@@ -11,6 +11,7 @@ from lumped.contact import middle
 from lumped.patch import integrate
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
+from sheetbench.errors import BadInput
 from sheetbench.scenes import PointLoad
 
 PLACES = np.meshgrid([-1.0, 0.0, 1.0], [-1.0, 0.0, 1.0])
@@ -56,6 +57,21 @@ def test_what_an_answer_has_at_points_is_on_the_surface_that_touches():
     shift = np.array([0.0, 0.01, 0.02])
     moved, _ = middle(problem.contacts, lattice, np.broadcast_to(shift, u.shape), at)
     assert np.abs(moved - shift).max() < 1e-15
+
+
+def test_a_lattice_as_a_function_has_that_surface_at_points_and_no_matrix_to_it():
+    at = np.array([[0.0733, 0.0867], [0.08, 0.08], [0.16, 0.03]])
+    scene = pressed_ball((0.0733, 0.0867), 4e-3)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(7, 8, 2))
+    sheet, answer = lumped.Differentiable(scene, springs), lumped.solve(scene, springs)
+    u, (found, surface) = sheet.solve({}), sheet.surface(at)
+    assert found == pytest.approx(answer.displacement(at), abs=1e-9 * np.abs(found).max())
+    weights = np.random.default_rng(2).normal(size=(3, 3))
+    by = sheet.pullback(surface.shared(weights, len(u)))["cells.young"]
+    expected = answer.sensitivity().at_points(at, weights)["cells.young"]
+    assert by == pytest.approx(expected, abs=1e-6 * np.abs(by).max())
+    with pytest.raises(BadInput, match="curved"):
+        sheet.at(at)
 
 
 @pytest.mark.parametrize(("model", "side"), [("lumped", 9), ("lumped", 10), ("shell", 8)])

@@ -100,17 +100,13 @@ class SheetSensitivity:
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> SheetGradient:
         """Return the derivatives of a J with ∂J/∂u (p, 3) at plan points (p, 2)."""
-        element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
-        out = np.zeros((self.sheet.nodes, 3))
+        plan, mesh = np.asarray(points, dtype=float), self.sheet.plan.mesh
+        (element, value), out = shares(mesh, plan), np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
-        if not self.sheet.touched_without_kinks:
+        if not self.sheet.touched_without_kinks(self.shape):
             return self.pullback(out)
-        on, _, by = self._surface_change(points)
+        on, _, by = tangent_planes.change_at(mesh, self.shape.vectors, plan)
         return self.pullback(out, self.sheet.of_surface(on, np.einsum("pijc,pi->pjc", by, weights)))
-
-    def _surface_change(self, points: np.ndarray) -> tuple[np.ndarray, ...]:
-        plan = np.asarray(points, dtype=float)
-        return tangent_planes.change_at(self.sheet.plan.mesh, self.shape.vectors, plan)
 
     def pullback(self, by_displacement: np.ndarray, more: np.ndarray | float = 0.0) -> SheetGradient:
         """Return the derivatives of a J with ∂J/∂u (n, 3) at the nodes, and `more` ∂J/∂q (N,)."""
@@ -139,12 +135,7 @@ class SheetSensitivity:
 
     def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
-        sheet, moved = self.sheet, self._moved({name: 1.0})
-        found = sheet.sample(sheet.displacement(moved), np.asarray(points))
-        if not sheet.touched_without_kinks:
-            return found
-        on, _, by = self._surface_change(points)
-        return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(moved)[on])
+        return self.shape.moved_at(np.asarray(points, dtype=float), self._moved({name: 1.0}))
 
     def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:
         """Return λ·∂R/∂e0 or λ·∂R/∂k0 (m, 3) of λ (N,), xx, yy and xy, of one value an element."""

@@ -99,16 +99,16 @@ class CurvedSurface(MidSurface):
 
     def __init__(self, lattice: Lattice, points: np.ndarray, nodes: np.ndarray, by: np.ndarray):
         super().__init__(lattice, points, order=1)
-        self._nodes, self._by = nodes, by
+        rows = np.arange(3 * len(nodes)).reshape(-1, 3, 1, 1)
+        both = np.broadcast_arrays(rows, 3 * nodes[:, None, :, None] + np.arange(3))
+        self._curves = by.ravel(), tuple(each.ravel() for each in both)
 
     def matrix(self, size: int) -> sp.csr_array:
-        rows = np.arange(3 * len(self._nodes)).reshape(-1, 3, 1, 1)
-        places = np.broadcast_arrays(rows, 3 * self._nodes[:, None, :, None] + np.arange(3))
-        curves = sp.coo_array((self._by.ravel(), [at.ravel() for at in places]), (rows.size, 3 * size))
-        return sp.csr_array(super().matrix(size) + curves)
+        straight = super().matrix(size)
+        return straight + sp.csr_array(self._curves, shape=straight.shape)
 
     def of(self, field: np.ndarray) -> np.ndarray:
-        return np.reshape(self.matrix(len(field)) @ field.ravel(), (-1, 3))
+        return np.asarray(self.matrix(len(field)) @ field.ravel()).reshape(-1, 3)
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
-        return np.reshape(values.ravel() @ self.matrix(size), (size, 3))
+        return np.asarray(self.matrix(size).T @ values.ravel()).reshape(-1, 3)

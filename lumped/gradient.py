@@ -30,7 +30,6 @@ import scipy.sparse as sp
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
-from lumped.contact import middle
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.parameter_sides import Calibrate, Sides, both_sides
@@ -176,8 +175,7 @@ class Equilibrium:
 
     def surface(self, points: np.ndarray) -> tuple[np.ndarray, MidSurface]:
         """Return the displacement (p, 3) [m] at plan points (p, 2), and the map of its changes."""
-        problem = self.problem
-        return middle(problem.contacts, problem.assembly.lattice, self.u, np.asarray(points, float))
+        return self.problem.middle(self.u, points)
 
     def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""

@@ -17,9 +17,10 @@ import scipy.sparse as sp
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.contact import Contact
+from lumped.contact import Contact, middle
 from lumped.items import Deformed, LatticeItem
 from lumped.loads import Loads
+from lumped.mid_surface import MidSurface
 from lumped.springs.all_families import Stresses, Survey
 from lumped.statics.correction import advance, unbalanced_force
 from lumped.statics.faults import inspect
@@ -180,6 +181,12 @@ class Problem(Structure[LatticeState, Residual]):
             at, force = (u, Drive(load_factor)), np.zeros_like(u)
             survey.energies["contact"] = sum(item.add_force(at, force) for item in self.items)
         return survey
+
+    def middle(self, u: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, MidSurface]:
+        """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch at u, under
+        full load, and the map of their changes. Raises BadInput off the sheet."""
+        touching = [one for one in self.contacts if one.touches((u, Drive(1.0)))]
+        return middle(touching, self.assembly.lattice, u, np.asarray(points, dtype=float))
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return the external force λ f(u)."""

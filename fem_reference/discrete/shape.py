@@ -37,8 +37,8 @@ class SheetShape:
         return self.sheet.surface_change(np.zeros_like(self.q) if self.v is None else self.v)
 
     def moved_at(self, points: np.ndarray, change: np.ndarray) -> np.ndarray:
-        """Return how much (p, 3) [m] the mid-surface, as obstacles touch it, moves at plan points (p, 2) by a
-        change (N,) of coordinates."""
+        """Return the displacement (p, 3) [m] of the mid-surface, as obstacles touch it, at plan points (p, 2)
+        for a change (N,) of coordinates."""
         sheet = self.sheet
         found: np.ndarray = sheet.sample(sheet.displacement(change), points)
         if not sheet.touched_without_kinks(self):

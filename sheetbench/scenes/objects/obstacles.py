@@ -42,7 +42,7 @@ class _Obstacle(Frozen):
 
     @property
     def core(self) -> np.ndarray:
-        """Half the sides (3,) [m] of what a ball of its radius is swept over: 0 but for a box."""
+        """Half the sides (3,) [m] of the core that a ball of its radius is swept over: 0 but for a box."""
         return np.zeros(3)
 
     def place(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:

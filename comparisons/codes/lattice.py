@@ -125,7 +125,7 @@ mode, {lowest:.4g} Hz flat, is critically damped by a drag of {critical:.4g} 1/s
 {arrays}
 
 Programs that read this folder and solve it, of rubber and obstacles the one in NumPy: `sheetbench calibrate
-SCENE --for numpy --out DIR`, likewise `matlab`; `c` is a program in C without tables.
+SCENE --for numpy --out DIR`, likewise `cpp` and `matlab`.
 """
 
 
@@ -161,7 +161,7 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
 
 
 SOFA = "sofa"  # has links alone
-READERS = {"numpy": "read_lattice.py", "matlab": "read_lattice.m"}
+READERS = {"numpy": "read_lattice.py", "cpp": "read_lattice.cpp", "matlab": "read_lattice.m"}
 IN_MOTION = ("c", "fmu")  # programs that step it
 CODES = (SOFA, *READERS, *IN_MOTION)
 
@@ -185,7 +185,7 @@ def lattice_files(
         return {name: partial(write_text, text=text) for name, text in motion.texts.items()}, []
     if code == SOFA:
         require_flat_at_rest(scene, "--for sofa")
-    if code in (SOFA, "matlab"):
+    if code in (SOFA, "cpp", "matlab"):
         require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
     added = {name: script(name) for reader, name in READERS.items() if reader == code}

@@ -183,7 +183,7 @@ class Problem(Structure[LatticeState, Residual]):
         return survey
 
     def middle(self, u: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, MidSurface]:
-        """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch at u,
+        """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch at u
         under full load, and the map of their changes. Raises BadInput off the sheet."""
         touching = [one for one in self.contacts if one.touches((u, Drive(1.0)))]
         return middle(touching, self.assembly.lattice, u, np.asarray(points, dtype=float))

@@ -246,19 +246,6 @@ void sheet_step(sheet *s, int count) {
     accelerate(s, 0);
   }
 }
-int sheet_rest(sheet *s, int most) { /* a motion that is stopped whenever it becomes slower */
-  double motion = 0, fastest = 0;
-  for (int n = 1; n <= most; n++) {
-    const double before = motion;
-    sheet_step(s, 1), motion = (double)sheet_energy(s, SHEET_KINETIC);
-    if (motion > before) continue;
-    fastest = before > fastest ? before : fastest;
-    if (before <= (sizeof(real) == 8 ? 1e-20 : 1e-10) * (fastest + s->stored)) return n;
-    MASSES(i) EACH(e) if (!OWNER[i][e]) s->v[i][e] = 0;
-    motion = 0;
-  }
-  return 0;
-}
 void sheet_set(sheet *s, int input, real value) {
   s->input[input] = value;
   if (input >= SHEET_FACTORS) s->set[input - SHEET_FACTORS] = s->changed = 1;

@@ -27,7 +27,6 @@ extern const sheet_real SHEET_REST[SHEET_ROWS][3]; /* m: places at rest, columns
 
 void sheet_reset(sheet *s);           /* to the start at t = 0; before anything else */
 void sheet_step(sheet *s, int count); /* so many steps of s->step */
-int sheet_rest(sheet *s, int most);   /* to the equilibrium under what acts: the steps it took, 0 where `most` are too few */
 void sheet_set(sheet *s, int input, sheet_real value); /* from now on; forces are beside the scene's loads */
 sheet_real sheet_get(sheet *s, int output);
 void sheet_set_force(sheet *s, int point, const sheet_real force[3]);

@@ -218,18 +218,6 @@ def test_the_step_is_stable_and_a_fifth_more_is_not(name, tmp_path):
 
 
 @needs_gcc
-@pytest.mark.sweep(5)
-@pytest.mark.parametrize("name", ["rate", "payload", "blown over time", *LIKE])
-def test_it_comes_to_rest_in_the_equilibrium(name, tmp_path):
-    scene, settings = ALL[name]
-    springs = calibrated(scene, **({"grid": (5, 3)} | settings))
-    sheet = Sheet(tmp_path, program(scene, springs, "double", 20))
-    known = lumped.solve(scene, springs).displacement(scene.probe_points()).ravel()
-    assert sheet.call("rest", 10) == 0 and sheet.call("rest", 300_000) > 0
-    assert np.abs(sheet.row()[: len(known)] - known).max() < 1e-6 * np.abs(known).max()
-
-
-@needs_gcc
 @pytest.mark.parametrize("what", ["force", "support", "natural"])
 def test_inputs_are_what_a_scene_would_say(what, tmp_path):
     """What a call sets from the first step on, against a scene in which it comes up within that step; two

@@ -141,7 +141,7 @@ class CellFields:
         return [self._with_edges(cells, springs) for cells, springs in zip(sections, inside, strict=True)]
 
     def _with_edges(self, cells: CellSection, springs: Springs) -> Springs:
-        """Return the springs of cells with those of edges and rims, which keep their factors."""
+        """Return springs of cells with the springs of edges and rims, whose factors are kept."""
         constants, of = self.calibration.constants, dict(springs.of)
         now, was = (twisting(section.bending) for section in (cells, self.section))
         factor = np.divide(now, was, out=np.ones_like(now), where=was > 0.0)
@@ -219,7 +219,7 @@ class CellFields:
     def _entries(
         self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray]
     ) -> dict[str, Entries]:
-        """Return the entries of a field's rates, and of those that are found with it."""
+        """Return the entries of a field's rates by its name; strain and curvature have theirs at once."""
         start, found = 0, list[tuple[np.ndarray, ...]]()
         for (cells, rate), power in zip(self._rates(name, fields, assembly), by, strict=False):
             q, m, n, c = np.nonzero(rate)

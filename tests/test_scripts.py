@@ -67,6 +67,7 @@ def tree(tmp_path):
 ALONE = {
     "against.py": (str(ROOT), "lattice:3", "shell:2", "settling:3", "--seconds", "0.1"),
     "contact.py": (),
+    "gradients.py": ("1",),
     "live.py": ("--grid", "3", "--elements", "2", "--drags", "2"),
     "natural.py": ("arc",),
     "one_file.py": ("3", "--seconds", "0.01"),

@@ -79,8 +79,8 @@ class NoClosedForm(Exception):
 def springs_of_cells(
     grid_cells: GridCells, layer_distance: float | None = None, anyhow: bool = False, **special: bool
 ) -> Springs:
-    """Return the springs of all cells, at the largest layer distance that a cell needs. Raises NoClosedForm
-    for a cell without a closed form, unless `anyhow`: some springs are then negative."""
+    """Return the springs of all cells, at the largest layer distance that a cell of the sheet needs. Raises
+    NoClosedForm for a cell without a closed form, unless `anyhow`: some springs are then negative."""
     (sides, _), target, layers = grid_cells.present, grid_cells.target, grid_cells.grid[2]
     constants, distance, exists = closed_form(target, sides, layers, layer_distance, **special)
     one_sheet = not grid_cells.several

@@ -44,7 +44,6 @@ STEP = 1e-4  # of a parameter, or of 1 where it is zero
 FIELD, STATE = "elements.", ("strain", "curvature")
 UNITS = np.array([[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]]])
 PLACED = re.compile(r"(tilt|curvature)_|(gravity|natural|temperature|load|mass|support|actuator|obstacle)")
-OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 
 
 class SheetSensitivity:
@@ -90,28 +89,24 @@ class SheetSensitivity:
     @cached_property
     def fields(self) -> list[str]:
         """The names of derivatives that have a value an element."""
-        own = [name for name in self.values if name not in (LAW, *STRAIN)]
-        own = [name for name in own if not name.endswith((".low", ".high"))]
+        others = (LAW, *STRAIN, ".low", ".high")
+        own = [name for name in self.values if not name.endswith(others)]
         natural = () if isinstance(self.sheet.element, HyperelasticElement) else STATE
         return [FIELD + name for name in (*own, *natural)]
 
     def names(self) -> list[str]:
         """Return the names of all derivatives: of fields, and of `scenes.parameters`."""
-        return [*self.fields, *(name for name in names_of(self.scene) if not name.endswith(OVER_TIME))]
+        return [*self.fields, *names_of(self.scene)]
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> SheetGradient:
         """Return the derivatives of a J with ∂J/∂u (p, 3) at plan points (p, 2)."""
-        element, value = shares(self.sheet.plan.mesh, np.asarray(points, dtype=float))
-        out = np.zeros((self.sheet.nodes, 3))
+        plan, mesh = np.asarray(points, dtype=float), self.sheet.plan.mesh
+        (element, value), out = shares(mesh, plan), np.zeros((self.sheet.nodes, 3))
         np.add.at(out, self.sheet.plan.elements[element], value[:, :, None] * np.asarray(weights)[:, None])
-        if not self.sheet.touched_without_kinks:
+        if not self.sheet.touched_without_kinks(self.shape):
             return self.pullback(out)
-        on, _, by = self._surface_change(points)
+        on, _, by = tangent_planes.change_at(mesh, self.shape.vectors, plan)
         return self.pullback(out, self.sheet.of_surface(on, np.einsum("pijc,pi->pjc", by, weights)))
-
-    def _surface_change(self, points: np.ndarray) -> tuple[np.ndarray, ...]:
-        plan = np.asarray(points, dtype=float)
-        return tangent_planes.change_at(self.sheet.plan.mesh, self.shape.vectors, plan)
 
     def pullback(self, by_displacement: np.ndarray, more: np.ndarray | float = 0.0) -> SheetGradient:
         """Return the derivatives of a J with ∂J/∂u (n, 3) at the nodes, and `more` ∂J/∂q (N,)."""
@@ -140,12 +135,7 @@ class SheetSensitivity:
 
     def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
-        sheet, moved = self.sheet, self._moved({name: 1.0})
-        found = sheet.sample(sheet.displacement(moved), np.asarray(points))
-        if not sheet.touched_without_kinks:
-            return found
-        on, _, by = self._surface_change(points)
-        return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(moved)[on])
+        return self.shape.moved_at(np.asarray(points, dtype=float), self._moved({name: 1.0}))
 
     def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:
         """Return λ·∂R/∂e0 or λ·∂R/∂k0 (m, 3) of λ (N,), xx, yy and xy, of one value an element."""

@@ -22,14 +22,15 @@ with one power of h, the textbook case, U is 1.35 times that error (Roache's ind
 
 Meshes that are fitted to rims of any shape do not refine one another: errors of single components vary from
 mesh to mesh as if by chance, and fall with order 1.0 to 3.3, 1.8 in the median at round holes and patches.
-There p is no more than 2, and c = 1: the neighbours count in full.
+There p is no more than 2. Rims have sides in proportion to the number of elements from 8 on (`outlined`):
+meshes that divide a rim alike err alike, and agree.
 
 η is the relative excess stiffness of a sheet that only twists, by the unresolved part of the layer
 (`edge_layer`): the meshes' answers differ as their unresolved parts do, and where all meshes miss it alike,
 three tenths of η bound the error. Two meshes give no order: p = 2 is assumed and U = 3 e. Changes of the size
 of rounding are no evidence: the bar is their size.
 
-The numbers 0.3, 0.35 and 1 were set on scenes drawn at random; how often the bars hold is measured on others:
+The numbers 0.3 and 0.35 were set on scenes drawn at random; how often the bars hold is measured on others:
 `sheetbench study promises`. Meshes have n, ¾ n and ½ n elements: a quarter as many is too coarse to show an
 order.
 
@@ -42,7 +43,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -60,20 +61,12 @@ BY_LAYER = 2.0  # loss of order where none of the layer is resolved
 TWIST = 0.3  # the largest share of η that counts
 MESHES = (1.0, 0.75, 0.5)  # elements, relative to the requested number
 ROUNDING = 1e-9  # relative to the largest answer
+IN_ROWS, FITTED = 3.0, 2.0  # largest order p on meshes of rows, and on others
+NEIGHBOURS = 0.35  # c
 
 
-class MeshFamily(NamedTuple):
-    """Constants of a family of meshes: the largest order p and the weight c of the neighbours."""
-
-    order: float
-    neighbours: float
-
-
-IN_ROWS, FITTED, SECOND_ORDER = MeshFamily(3.0, 0.35), MeshFamily(2.0, 1.0), MeshFamily(2.0, 0.35)
-
-
-def family_of(scene: Scene) -> MeshFamily:
-    """Return the family of a scene's meshes of quadratic elements."""
+def largest_order(scene: Scene) -> float:
+    """Return the largest order p of a scene's meshes of quadratic elements."""
     return IN_ROWS if has_lines(scene) else FITTED
 
 
@@ -139,24 +132,24 @@ def of_solutions(
     if len({size for _, size, _ in usable}) < 2 or usable[0][1] != sizes[0]:
         return None
     answers, of_sizes, layers = zip(*usable, strict=True)
-    return estimate(answers, of_sizes, layers, family_of(scene))
+    return estimate(answers, of_sizes, layers, largest_order(scene))
 
 
 def of_answers(scene: Scene, answers: Sequence[np.ndarray], meshes: Sequence[Elements]) -> Uncertainty:
     """Return the bars of answers (n, k) on given numbers of elements, finest first, without the layer's
     part."""
-    return estimate(answers, [mesh_size(scene, n) for n in meshes], family=family_of(scene))
+    return estimate(answers, [mesh_size(scene, n) for n in meshes], largest=largest_order(scene))
 
 
 def estimate(
     answers: Sequence[np.ndarray],
     sizes: Sequence[float],
     layers: Sequence[Missed] = (),
-    family: MeshFamily = IN_ROWS,
+    largest: float = IN_ROWS,
 ) -> Uncertainty:
     """Return the bars of answers (n, k) on two or three meshes of rising size. layers: the unresolved layer
-    of each mesh, none by default. The first of several meshes of one size counts (¾ and ½ of few elements).
-    Raises BadInput for other numbers of answers."""
+    of each mesh, none by default; largest: bound of the order p. The first of several meshes of one size
+    counts (¾ and ½ of few elements). Raises BadInput for other numbers of answers."""
     if len(answers) not in (2, 3) or len(answers) != len(sizes):
         raise BadInput(f"{len(answers)} answers on {len(sizes)} meshes: two or three of both are needed")
     layers = layers or [NOTHING] * len(sizes)
@@ -169,7 +162,7 @@ def estimate(
     ratio = sizes[1] / sizes[0]
     spread = np.max(answers, axis=0) - np.min(answers, axis=0)
     rounding = spread <= ROUNDING * np.max(np.abs(fine), initial=0.0)
-    largest = min(family.order, IN_ROWS.order - BY_LAYER * layers[0].share)
+    largest = min(largest, IN_ROWS - BY_LAYER * layers[0].share)
     if len(answers) == 2:
         order, trusted, converging = np.full(fine.shape, np.nan), rounding, bool(rounding.all())
         field_order, weight, neighbours = min(ASSUMED_ORDER, largest), CAUTION, 0.0
@@ -181,7 +174,7 @@ def estimate(
         order[rounding] = np.nan
         trusted = rounding | (order >= LEAST_ORDER)
         orders = np.where(order >= LEAST_ORDER, order, np.inf)[~rounding]  # no order counts as high
-        field_order, weight, neighbours = largest, 1.0, family.neighbours
+        field_order, weight, neighbours = largest, 1.0, NEIGHBOURS
         if len(orders):
             field_order = min(float(np.median(orders)), largest)
         change = np.where(trusted, step / (ratio ** np.where(trusted, order, 1.0) - 1.0), 0.0)

@@ -52,7 +52,7 @@ class ReferenceModes(NaturalModes):
     label: str
     settings: dict[str, Any]
     solve_seconds: float
-    sample: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    sample: Callable[[np.ndarray], np.ndarray]
     gradient_of: Callable[[int], Any] | None = None
 
     def sensitivity(self, number: int) -> Any:
@@ -76,8 +76,7 @@ class ReferenceModes(NaturalModes):
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
-        at = np.asarray(points, dtype=float).reshape(-1, 2)
-        return np.stack([self.sample(shape, at) for shape in self.shapes])
+        return self.sample(np.asarray(points, dtype=float).reshape(-1, 2))
 
     def heading(self) -> tuple[str, str, str]:
         return f"{len(self.frequencies)} modes of {self.label}", "", ""
@@ -169,14 +168,15 @@ def modes(
         mode = basis @ vectors[:, rigid + number - 1]
         return FrequencyGradient(sheet, q, at, mode, float(values[rigid + number - 1]))
 
+    changes = (basis @ vectors[:, rigid:]).T
     return ReferenceModes(
         label="{} {} × {}".format(model, *division.counts),
         settings={"elements": list(division.counts), **division.options},
         frequencies=np.sqrt(np.maximum(values[rigid:], 0.0)) / (2.0 * np.pi),
-        shapes=np.array([sheet.displacement(basis @ vector) for vector in vectors[:, rigid:].T]),
+        shapes=np.array([sheet.displacement(change) for change in changes]),
         rigid=rigid,
         unknowns=sheet.unknowns,
         solve_seconds=now() - ready,
-        sample=sheet.sample,
+        sample=lambda points: np.stack([shape.moved_at(points, change) for change in changes]),
         gradient_of=sheet.again() and gradient_of,
     )

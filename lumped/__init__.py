@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from lumped import moduli
+from lumped.actuators.division import refining_cells
 from lumped.calibration import Calibration, given
 from lumped.calibration.cell_by_cell import with_shares
 from lumped.fitting.fits import ModalTarget, StaticTarget
@@ -68,6 +69,7 @@ __all__ = [
     "linearise",
     "modes",
     "moduli",
+    "refining_cells",
     "require_alike",
     "require_integrator",
     "sections_of",

@@ -17,10 +17,11 @@ with its stiffness and mass.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
+from types import MappingProxyType
 
 import numpy as np
 
@@ -28,10 +29,11 @@ from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.calibration.cell_by_cell import GridCells, each_cell
 from lumped.calibration.closed_form import springs_of_cells
+from lumped.calibration.consistent import special
 from lumped.masses import shares_of_layers
 from lumped.natural import grown
 from lumped.natural import rates as natural_rates
-from lumped.sections import CellSection, of_cells, twisting
+from lumped.sections import CellSection, of_cells, ratio, twisting
 from lumped.spring_constants import EDGES_OWN, NEAR_EDGES, NONE, RIMS_OWN, Springs
 from lumped.springs.all_families import (
     AllFamilies,
@@ -53,12 +55,11 @@ ROUNDING = 1e-9  # of the largest constant
 NOTHING = 1e-300  # N/m, a stiffness of springs that are there
 LIMIT = 9  # among the constants of rubber
 STEP = 1e-5  # of a field, for differences of springs, whose error is of its square
-CLOSED = {"consistent-membrane": {"gradients": True}, "consistent-oblique": {"waves": True}}
-CLOSED |= {"consistent": {}, "consistent-interior": {}}
 Fields = Mapping[str, np.ndarray]
-Rate = tuple[
-    np.ndarray, np.ndarray
-]  # cells beside each spring (q, m), of its constants by theirs (q, m, n, c)
+# cells beside each spring (q, m), and rates of its constants by theirs (q, m, n, c)
+Rate = tuple[np.ndarray, np.ndarray]
+# rates that are not 0, (k,): places in the field, numbers among the constants of all springs, and values
+Entries = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class CellFields:
@@ -66,7 +67,7 @@ class CellFields:
 
     def __init__(self, scene: Scene, calibration: Calibration, assembly: Assembly):
         self.scene, self.calibration, self.assembly = scene, calibration, assembly
-        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, list[Rate]]()
+        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, Entries]()
 
     @cached_property
     def section(self) -> CellSection:
@@ -79,18 +80,12 @@ class CellFields:
     def base(self) -> dict[str, np.ndarray]:
         """The fields as they are, by the names of the module's text without "cells."."""
         section, share = self.section, 1.0 if self.section.share is None else self.section.share
-        own, bent = section.membrane[..., 0, 0], section.bending[..., 0, 0]
-        there = own > 0.0
-
-        def over(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
-            return np.divide(part, whole, out=np.zeros_like(part), where=there)
-
-        poisson = over(section.membrane[..., 0, 1], section.membrane[..., 1, 1])
-        thickness = np.sqrt(over(12.0 * bent, own))
-        whole = np.where(there, thickness * share, 1.0)
-        free = own - over(section.membrane[..., 0, 1] ** 2, section.membrane[..., 1, 1])
-        found = {"young": free / whole, "poisson": poisson, "thickness": thickness}
-        return found | {"density": section.per_area / whole, **dict(zip(STATE, self._state(), strict=True))}
+        form, bent = section.membrane, section.bending[..., 0, 0]
+        thickness = np.sqrt(ratio(12.0 * bent, form[..., 0, 0]))
+        free = form[..., 0, 0] - ratio(form[..., 0, 1] ** 2, form[..., 1, 1])
+        young, density = (ratio(of, thickness * share) for of in (free, section.per_area))
+        found = {"young": young, "poisson": ratio(form[..., 0, 1], form[..., 1, 1]), "thickness": thickness}
+        return found | {"density": density, **dict(zip(STATE, self._state(), strict=True))}
 
     def _state(self) -> tuple[np.ndarray, np.ndarray]:
         if self.assembly.natural is None:
@@ -106,11 +101,10 @@ class CellFields:
         if not fields.keys() & {*NUMBERS}:
             return section
 
-        def ratio(name: str) -> np.ndarray:
-            whole = np.where(base[name] != 0.0, base[name], 1.0)
-            return np.asarray(fields.get(name, base[name]) / whole)[..., None, None]
-
-        e, t = ratio("young"), ratio("thickness")
+        changes = (
+            ratio(fields.get(name, base[name]), base[name]) for name in ("young", "thickness", "density")
+        )
+        e, t, rho = (change[..., None, None] for change in changes)
         membrane, bending, shear = section.membrane * e * t, section.bending * e * t**3, section.shear * e * t
         if "poisson" in fields:
             if self.scene.material.kind == "orthotropic" or self.scene.layers:
@@ -123,23 +117,34 @@ class CellFields:
                 by * (form + (now - was) * form[..., 1:2, 1:2] * coupling) for form in (membrane, bending)
             )
             shear = shear * (1.0 + was) / (1.0 + now)
-        mixed, per_area = section.mixed * e * t**2, section.per_area * (t * ratio("density"))[..., 0, 0]
+        mixed, per_area = section.mixed * e * t**2, section.per_area * (t * rho)[..., 0, 0]
         parts = {"membrane": membrane, "bending": bending, "shear": shear, "mixed": mixed}
         return replace(section, **parts, per_area=per_area)
 
-    def springs(self, fields: Fields) -> Springs:
-        """Return the springs of cells with other fields. Raises BadInput for ν and h of a calibration that is
-        not in closed form."""
-        constants, cells = self.calibration.constants, self.changed_section(fields)
-        there = self.section.bending[..., 0, 0] > 0.0
+    def springs(self, *each: Fields) -> list[Springs]:
+        """Return the springs of cells with other values of equal fields. Raises BadInput for ν and h if the
+        lattice's own are not in closed form."""
+        sections = [self.changed_section(fields) for fields in each]
+        constants, young = self.calibration.constants, self.base["young"]
+        if each[0].keys() & {"poisson", "thickness"}:
+            each_grid = [replace(self._at_rest, section=cells) for cells in (self.section, *sections)]
+            distance, options = constants.layer_distance, special(self.calibration.method)
+            found = springs_of_cells(GridCells.stacked(each_grid), distance, True, **options)
+            own, *inside = found.split(len(each_grid))
+            largest = max(np.abs(np.asarray(part)).max() for part in own.of.values())
+            for name in constants.of.keys() - {*EDGES_OWN, *RIMS_OWN}:
+                if np.abs(constants[name] - own[name]).max(initial=0.0) > ROUNDING * largest:
+                    which = f"springs of '{self.calibration.method}', not in closed form"
+                    raise BadInput(f"cells.poisson, cells.thickness: {which}")
+        else:
+            inside = [constants.scaled(ratio(fields.get("young", young), young)) for fields in each]
+        return [self._with_edges(cells, springs) for cells, springs in zip(sections, inside, strict=True)]
+
+    def _with_edges(self, cells: CellSection, springs: Springs) -> Springs:
+        """Return the springs of cells with those of edges and rims, which keep their factors."""
+        constants, of = self.calibration.constants, dict(springs.of)
         now, was = (twisting(section.bending) for section in (cells, self.section))
         factor = np.divide(now, was, out=np.ones_like(now), where=was > 0.0)
-        if not fields.keys() & {"poisson", "thickness"}:
-            e = fields.get("young", self.base["young"]) / np.where(there, self.base["young"], 1.0)
-            inside = constants.scaled(e)
-        else:
-            inside = replace(self._closed_form, of=self._closed(cells).of)
-        of = dict(inside.of)
         for name in RIMS_OWN:
             if name in constants.of:
                 of[name] = (constants.along(name, 0) * factor[..., 0],)
@@ -153,29 +158,10 @@ class CellFields:
                 of[key] = (x, y)
         return Springs(of, constants.layer_distance)
 
-    def _closed(self, cells: CellSection) -> Springs:
-        """Return the springs of the closed form at the lattice's layer distance, some slightly negative."""
-        if (method := self.calibration.method) not in CLOSED:
-            raise BadInput(f"cells.poisson, cells.thickness: the calibration '{method}' has no closed form")
-        each = replace(self._at_rest, cells=cells, section=cells)
-        return springs_of_cells(each, self.calibration.layer_distance, anyhow=True, **CLOSED[method])
-
     @cached_property
     def _at_rest(self) -> GridCells:
         sheet, of = sheet_at_rest(self.scene), self.calibration
         return each_cell(sheet, self.scene.material, of.grid, of.grading, self.section)
-
-    @cached_property
-    def _closed_form(self) -> Springs:
-        """The closed form's springs of the sections as they are. Raises BadInput where the lattice has
-        others."""
-        own, constants = self._closed(self.section), self.calibration.constants
-        largest = max(np.abs(np.asarray(part)).max() for part in own.of.values())
-        for name in constants.of.keys() - {*EDGES_OWN, *RIMS_OWN}:
-            if np.abs(constants[name] - own[name]).max(initial=0.0) > ROUNDING * largest:
-                method = self.calibration.method
-                raise BadInput(f"cells.poisson, cells.thickness: springs of '{method}', not in closed form")
-        return own
 
     def families_of(self, springs: Springs) -> AllFamilies:
         """Return springs without a natural state."""
@@ -183,7 +169,7 @@ class CellFields:
 
     def assembly_of(self, fields: Fields) -> Assembly:
         """Return the lattice of cells with other fields."""
-        springs = self.springs(fields) if fields.keys() & {*OF_SECTION} else self.calibration.constants
+        springs = self.springs(fields)[0] if fields.keys() & {*OF_SECTION} else self.calibration.constants
         assembly = self._grown(self.families_of(springs), fields)
         if "density" in fields or "thickness" in fields:
             assembly.cells = self.changed_section(fields)
@@ -205,7 +191,7 @@ class CellFields:
         """Return the lattice with springs of the mid-surface, as other values of the fields can need them."""
         if len(assembly.springs[2]):
             return assembly
-        own = self.springs(fields)
+        own = self.springs(fields)[0]
         own = replace(own, of={**own.of, "mid_area": (np.full(self.shape, NOTHING),)})
         return self._grown(self.families_of(own), fields)
 
@@ -218,35 +204,47 @@ class CellFields:
         found = np.zeros_like(base)
         if name != "density":
             own = (fields.keys() - {name} if name == "young" else fields.keys()) & {*OF_SECTION, *STATE}
-            if not own and name not in self._kept:
-                self._kept[name] = self._rates(name, {}, assembly)
-            rates = self._rates(name, fields, assembly) if own else self._kept[name]
-            size = self.section.per_area.size
-            by_cells = np.zeros((base.size // size, size))
-            for (cells, rate), power in zip(rates, by, strict=False):
-                values = np.einsum("qmnc,mn->cqm", rate, power[: rate.shape[1], : rate.shape[2]])
-                by_cells -= [np.bincount(cells.ravel(), of.ravel(), size) for of in values]
-            found = by_cells.T.reshape(base.shape)
+            known = {} if own else self._kept
+            if name not in known:
+                known |= self._entries(name, fields if own else {}, assembly, by)
+            cells, constants, rates = known[name]
+            powers = np.concatenate([power.ravel() for power in by])
+            found -= np.bincount(cells, rates * powers[constants], base.size).reshape(base.shape)
         if name in ("density", "thickness") and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
-            per_area = self.changed_section(fields).per_area / np.where(base > 0.0, base, 1.0)
+            per_area = ratio(self.changed_section(fields).per_area, base)
             found = found + per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
         return found
 
+    def _entries(
+        self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray]
+    ) -> dict[str, Entries]:
+        """Return the entries of a field's rates, and of those that are found with it."""
+        start, found = 0, list[tuple[np.ndarray, ...]]()
+        for (cells, rate), power in zip(self._rates(name, fields, assembly), by, strict=False):
+            q, m, n, c = np.nonzero(rate)
+            found.append((cells[q, m], c, start + m * power.shape[1] + n, rate[q, m, n, c]))
+            start += power.size
+        cells, component, constants, rates = map(np.concatenate, zip(*found, strict=True))
+        if name not in STATE:
+            return {name: (cells, constants, rates)}
+        each = ((one, component // 3 == number) for number, one in enumerate(STATE))
+        return {one: (3 * cells[of] + component[of] % 3, constants[of], rates[of]) for one, of in each}
+
     def _rates(self, name: str, fields: Fields, assembly: Assembly) -> list[Rate]:
-        """Return the rates by cells and kinds of springs: linear in E, else by a central difference."""
+        """Return the rates by cells and kinds of springs: linear in E, else by a central difference; by
+        strain and curvature together."""
         if name in STATE:
             strain, bent = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
             flat = assembly.springs
             if assembly.natural is not None:
-                of_section = fields.keys() & {*OF_SECTION}
-                springs = self.springs(fields) if of_section else self.calibration.constants
-                flat = self.families_of(springs).families
-            return natural_rates(assembly.lattice, flat[:3], (strain, bent), name == "curvature")
+                flat = self.families_of(self.springs(fields)[0]).families
+            return natural_rates(assembly.lattice, flat[:3], (strain, bent))
         base = fields.get(name, self.base[name])
         step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
         ends, over = ((base,), base) if name == "young" else ((base + step, base - step), 2.0 * step)
-        sides = [self._of_cells({**fields, name: end}, assembly) for end in ends]
+        springs = self.springs(*({**fields, name: end} for end in ends))
+        sides = [self.by_cells(one, assembly, fields) for one in springs]
         over, found = np.where(over > 0.0, over, 1.0).ravel(), []
         for (cells, rate), *below in zip(*sides, strict=True):
             change = rate - below[0][1] if below else rate
@@ -255,27 +253,28 @@ class CellFields:
             found.append((cells, (change / over[cells][:, :, None])[..., None]))
         return found
 
-    def _of_cells(self, fields: Fields, assembly: Assembly) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield of each kind of springs the cells beside each, (q, m), and their shares (q, m, n) of its
+    def by_cells(
+        self, springs: Springs, assembly: Assembly, fields: Fields = MappingProxyType({})
+    ) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Return, for each kind of springs, the cells beside each, (q, m), and their shares (q, m, n) of its
         constants."""
-        lattice, springs = assembly.lattice, self.springs(fields)
+        lattice, none = assembly.lattice, (np.empty((1, 0), int), np.empty((1, 0, 1)))
         these = lattice.links_of(assembly.links.nodes)
-        yield lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these]
+        found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these])]
         kept = np.arange(lattice.cell_areas.size)[lattice.present_cells]
         plain: list[Family] = [*cell_springs(lattice, assembly.pattern, springs)]
         strain = fields.get("strain", self.base["strain"])
         if strain.any():
             plain = grown(lattice, plain, strain[..., [[0, 2], [2, 1]]])
         for family, now in zip(assembly.springs[1:3], plain, strict=True):
-            constants = now.constants if len(family) else np.empty((0, 1))  # type: ignore[attr-defined]
-            yield np.tile(kept, max(1, len(family) // len(kept)))[None, : len(family)], constants[None]
-        if len(assembly.springs[3]):
-            stored = faces_by_cells(lattice, springs)
-            constants = np.zeros((*stored.shape, FACE.count))
-            constants[..., -1] = stored / lattice.faces.at_rest.area**2
-            yield lattice.faces.cells, constants
-        else:
-            yield np.empty((1, 0), int), np.empty((1, 0, 1))
+            cells = np.tile(kept, len(family) // len(kept))[None]
+            found.append((cells, now.constants[None]) if len(family) else none)  # type: ignore[attr-defined]
+        if not len(assembly.springs[3]):
+            return [*found, none]
+        stored = faces_by_cells(lattice, springs)
+        constants = np.zeros((*stored.shape, FACE.count))
+        constants[..., -1] = stored / lattice.faces.at_rest.area**2
+        return [*found, (lattice.faces.cells, constants)]
 
     def _of_masses(self, weight: np.ndarray) -> np.ndarray:
         """Return the derivative of weight · masses by the mass per area of every cell; weight: (n,)."""

@@ -16,6 +16,7 @@ circle the second part is 0, the first its sagitta but for 3/8 R α⁴, α half 
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
@@ -98,12 +99,16 @@ class CurvedSurface(MidSurface):
 
     def __init__(self, lattice: Lattice, points: np.ndarray, nodes: np.ndarray, by: np.ndarray):
         super().__init__(lattice, points, order=1)
-        self._nodes, self._by = nodes, by
+        rows = np.arange(3 * len(nodes)).reshape(-1, 3, 1, 1)
+        both = np.broadcast_arrays(rows, 3 * nodes[:, None, :, None] + np.arange(3))
+        self._curves = by.ravel(), tuple(each.ravel() for each in both)
+
+    def matrix(self, size: int) -> sp.csr_array:
+        straight = super().matrix(size)
+        return straight + sp.csr_array(self._curves, shape=straight.shape)
 
     def of(self, field: np.ndarray) -> np.ndarray:
-        return super().of(field) + np.einsum("kiaj,kaj->ki", self._by, field[self._nodes])
+        return np.asarray(self.matrix(len(field)) @ field.ravel()).reshape(-1, 3)
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
-        out = super().shared(values, size)
-        np.add.at(out, self._nodes, np.einsum("kiaj,ki->kaj", self._by, values))
-        return out
+        return np.asarray(self.matrix(size).T @ values.ravel()).reshape(-1, 3)

@@ -219,8 +219,9 @@ class Contact(LatticeItem):
         np.add.at(by, back, change.swapaxes(1, 2) @ slope[cell, group] @ change)
         loads = self._at_points(load[on])
         if not definite:
-            both = np.einsum("mp,pa,pb->mab", loads / near.touch[on], shares, shares, optimize=True)
-            by -= np.einsum("mab,ij->maibj", both, projector(self.obstacle)).reshape(by.shape)
+            bent = loads[..., None] * near.curvature[on]
+            both = np.einsum("mpj,pa,pb->mabj", bent, shares, shares, optimize=True)
+            by -= (both[:, :, None] * projector(self.obstacle)[:, None]).reshape(by.shape)
         if self.bent:
             sides, linear = sides[:, on], self.surface.linear
             first = self.surface.slopes(sides).reshape(-1, 36, 3 * LINEAR)
@@ -273,6 +274,10 @@ class Contact(LatticeItem):
         touched = self._pressed(at, tangent=True).slope.sum(axis=(2, 3))
         return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
+    def touches(self, at: Deformed) -> bool:
+        """Return whether the obstacle touches the sheet."""
+        return bool(self._pressed(at).energy.any())
+
     def report(self, at: Deformed) -> tuple[ContactState, np.ndarray]:
         """Return the state of contact at an equilibrium and the pressure (n,) [Pa] at the masses."""
         found = self.near(at)
@@ -298,11 +303,12 @@ class Contact(LatticeItem):
 
 
 def middle(
-    contacts: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray
+    touching: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray
 ) -> tuple[np.ndarray, MidSurface]:
     """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch, if it is
-    curved, and the map of their changes. Raises BadInput for points off the sheet."""
-    if bent := [one for one in contacts if one.bent]:
+    curved, and the map of their changes. touching: obstacles in contact. Raises BadInput for points
+    off the sheet."""
+    if bent := [one for one in touching if one.bent]:
         return bent[0].curved(u, points)
     surface = MidSurface(lattice, points)
     return surface.of(u), surface

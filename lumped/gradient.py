@@ -30,7 +30,6 @@ import scipy.sparse as sp
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.cell_fields import NUMBERS, STATE, CellFields
-from lumped.contact import middle
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.parameter_sides import Calibrate, Sides, both_sides
@@ -45,7 +44,6 @@ from sheetbench.scenes.meaning.parameters import names_of, short_name
 
 FIELD = "cells."
 FORCES = "forces"
-OVER_TIME = ("damping_time", "damping_rate", "loss_factor", "drag", "friction", "share", "time")
 FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
 
 
@@ -150,8 +148,7 @@ class Equilibrium:
         scene = self.problem.scene
         isotropic = scene.material.kind != "orthotropic" and not scene.layers
         fields = [name for name in NUMBERS if isotropic or name != "poisson"]
-        own = (name for name in names_of(scene) if not name.endswith(OVER_TIME))
-        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *own]
+        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(scene)]
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives of J by name; by_displacement: ∂J/∂u (n, 3) of the masses."""
@@ -161,7 +158,7 @@ class Equilibrium:
 
     def at_points(self, points: np.ndarray, weights: np.ndarray) -> Gradient:
         """Return the derivatives of J by name; weights: ∂J/∂u (p, 3) at plan points (p, 2)."""
-        return self.pullback(self._middle(points).shared(weights, len(self.u)))
+        return self.pullback(self.surface(points)[1].shared(weights, len(self.u)))
 
     def pushforward(self, changes: Mapping[str, Any]) -> np.ndarray:
         """Return the change (n, 3) [m] of the displacement by changes of parameters, to first order."""
@@ -174,11 +171,11 @@ class Equilibrium:
 
     def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
-        return self._middle(points).of(self.pushforward({name: 1.0}))
+        return self.surface(points)[1].of(self.pushforward({name: 1.0}))
 
-    def _middle(self, points: np.ndarray) -> MidSurface:
-        problem = self.problem
-        return middle(problem.contacts, problem.assembly.lattice, self.u, np.asarray(points, float))[1]
+    def surface(self, points: np.ndarray) -> tuple[np.ndarray, MidSurface]:
+        """Return the displacement (p, 3) [m] at plan points (p, 2), and the map of its changes."""
+        return self.problem.middle(self.u, points)
 
     def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""

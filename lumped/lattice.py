@@ -32,6 +32,9 @@ from sheetbench.scenes import Sheet
 from sheetbench.scenes.objects.grading import Graded
 from sheetbench.scenes.objects.grid import Grid
 
+# what of a lattice does not depend on the distance of its layers
+PLANAR = ("present_cells", "absent_masses", "layer_cells", "middle_cells", "cell_areas")
+
 Weights = Literal["tributary", "full"]
 
 
@@ -155,7 +158,9 @@ class Lattice:
         links = self.links._replace(offset=offset, rest_length=np.linalg.norm(offset, axis=1))
         positions = frozen(self.positions * by)
         own = {"layer_distance": layer_distance, "per_area": per_area}
-        return replace(self, positions=positions, links=links, **own)  # type: ignore[arg-type]
+        found = replace(self, positions=positions, links=links, **own)  # type: ignore[arg-type]
+        vars(found).update((name, of) for name, of in vars(self).items() if name in PLANAR)
+        return found
 
     def columns(self) -> np.ndarray:
         """Return the numbers of the masses by plan position, (ny, nx, layers)."""

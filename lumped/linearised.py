@@ -36,7 +36,6 @@ from lumped.calibration import Calibration, default
 from lumped.dynamics.system import System
 from lumped.gradient import rates
 from lumped.loads import Loads
-from lumped.mid_surface import MidSurface
 from lumped.parameter_sides import both_sides
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
@@ -187,7 +186,7 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
         return full, sp.csc_array(motions.T @ full @ motions)
 
     (_, mass), (drag, damping), (spring, stiffness) = (reduced(*factors) for factors in np.eye(3).tolist())
-    probes = MidSurface(problem.assembly.lattice, scene.probe_points())
+    _, probes = problem.middle(u, scene.probe_points())
     outputs = [(name, axis) for name in scene.probes for axis in range(3)]
     observation = probes.matrix(len(u)).toarray()
     inputs, forces, rate_forces, displacements = _inputs(calibration, problem, u, observation, spring, drag)

@@ -20,7 +20,7 @@ from lumped.gradient import FIELD, FORCES
 from lumped.parameter_sides import Calibrate
 from lumped.sensitivity import Differentiable
 from lumped.springs import all_families
-from lumped.springs.all_families import SpringArrays, Stresses, stiffness_by_cells
+from lumped.springs.all_families import SpringArrays, Stresses
 from lumped.springs.cells import CellArrays
 from lumped.springs.law_table import AreaAndStrains
 from lumped.springs.links import LinkArrays
@@ -131,12 +131,11 @@ def _together(
 ) -> Callable[[slice], None]:
     """Return the function that sets the displacements of a part of the designs, and whether each has
     converged."""
-    problem, lattice = sheet.problem, sheet.problem.assembly.lattice
-    links, *of_cells = problem.assembly.springs[:3]
-    base, kept = sheet.base[YOUNG].ravel(), np.arange(lattice.cell_areas.size)[lattice.present_cells]
-    these = lattice.links_of(links.nodes)
-    each = stiffness_by_cells(lattice, sheet.calibration.constants)[:, these, 0]
-    cells, band, assembly = lattice.links.cells[:, these], problem.system.band, problem.assembly
+    problem, assembly, band = sheet.problem, sheet.problem.assembly, sheet.problem.system.band
+    base, of_cells = (
+        sheet.base[YOUNG].ravel(),
+        sheet.plain.cells.by_cells(sheet.calibration.constants, assembly),
+    )
     assert band is not None
     of_start, _ = banded.factored(problem.tangent(start, 1.0), band)
     free, none = problem.constraints.transform_arrays, all_families.NO_STRESSES
@@ -145,10 +144,8 @@ def _together(
     def solve(part: slice) -> None:
         young = np.asarray(designs[YOUNG][part] if YOUNG in designs else base[None].repeat(len(out[part]), 0))
         factor = young.reshape(len(young), -1) / np.where(base > 0.0, base, 1.0)
-        arrays = [np.einsum("qm,bqm->bm", each, factor[:, cells])]
-        for q in (family.constants for family in of_cells):  # type: ignore[attr-defined]
-            arrays.append(np.tile(factor[:, kept], (1, len(q) // len(kept)))[:, :, None] * q)
-        arrays.append(np.zeros_like(out[part]) + problem.loads.last_dead)
+        links, *arrays = (np.einsum("qmn,bqm->bmn", each, factor[:, cells]) for cells, each in of_cells[:3])
+        arrays = [links[..., 0], *arrays, np.zeros_like(out[part]) + problem.loads.last_dead]
         if FORCES in designs:
             arrays[-1] += designs[FORCES][part]
         rounding = assembly.rounding * assembly.all_families.link_stiffness_norm * factor.max(initial=1.0)

@@ -88,7 +88,7 @@ class Moduli:
 def gap_shear_per_stiffness(sides: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
     """Return the shear stiffness of one gap along x and y, per unit stiffness of the cross links that run so,
     (…, 2), and of the furthest diagonals, (…, 2) [1]; sides: of the cells, (…, 2) [m]."""
-    squares, upright, area = sides**2, distance**2, sides.prod(axis=-1)[..., None]
+    squares, upright, area = sides**2, np.asarray(distance)[..., None] ** 2, sides.prod(axis=-1)[..., None]
     sheared = 2.0 * squares * upright / area
     return sheared / (squares + upright), 2.0 * sheared / (squares.sum(axis=-1)[..., None] + upright)
 
@@ -107,7 +107,8 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     """Return the moduli of interior patches of lattices, each with the springs of one cell throughout; sides:
     of the cells, (rows, columns, 2) [m], or of one where they are alike."""
     shape = np.broadcast_shapes(sides.shape[:2], springs.shape)
-    square = springs.layer_distance**2
+    distance = np.asarray(springs.layer_distance)[..., None]
+    square = distance**2
     squares = np.empty((*shape, len(LINKS), 3))  # of the lengths that links span
     squares[..., :2], squares[..., 2] = SPAN[:, :2] * sides[..., None, :] ** 2, SPAN[:, 2] * square
     stiffness = np.zeros(squares.shape[:-1])
@@ -138,10 +139,10 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
     coupling = springs.along("face_coupling", 0) * sides.prod(axis=-1) / np.sum(sides**2, axis=-1)
     return Moduli(
         membrane=layers * in_layer + (layers - 1) * in_gap + _in_plane(springs, "mid_area"),
-        bending=(second_moment(layers) * in_layer + second_moment(layers - 1) * in_gap) * square,
+        bending=(second_moment(layers) * in_layer + second_moment(layers - 1) * in_gap) * square[..., None],
         shear=shear_gaps(layers) * shear,
         coupling=shear_gaps(layers) * np.broadcast_to(coupling, shape),
-        mixed=second_moment(layers) * springs.layer_distance / layers * upward,
+        mixed=second_moment(layers) * distance[..., None] / layers * upward,
     )
 
 

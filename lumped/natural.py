@@ -57,14 +57,14 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
 
 
 def rates(
-    lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray], curvature: bool
+    lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray]
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return, for each family of a flat sheet, the adjacent cells of every spring (q, m), and the rates
-    (q, m, n, 3) of its constants and natural δg₀ by the cells' natural strain xx, yy and xy, or curvature;
-    state: strain and curvature, (rows, columns, 2, 2)."""
-    no_springs = np.zeros((1, 0), int), np.zeros((1, 0, 1, 3))
+    (q, m, n, 6) of its constants and natural δg₀ by the cells' natural strain and curvature, xx, yy and xy;
+    state: both, (rows, columns, 2, 2)."""
+    no_springs = np.zeros((1, 0), int), np.zeros((1, 0, 1, 6))
     return [
-        no_springs if springs is None else (springs.cells.T, springs.rates(*state, curvature))
+        no_springs if springs is None else (springs.cells.T, springs.rates(*state))
         for springs in _natural(lattice, families)
     ]
 
@@ -115,19 +115,20 @@ class _Natural:
             return replace(self.family, rest_length=natural[0], natural=natural[1])
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    def rates(self, strain: np.ndarray, k: np.ndarray, curvature: bool) -> np.ndarray:
-        """Return the rates (q, m, n, 3); see `rates` above."""
+    def rates(self, strain: np.ndarray, k: np.ndarray) -> np.ndarray:
+        """Return the rates (q, m, n, 6); see `rates` above."""
         plan, growth = self._growth(strain, k)
         by_change: Any = 0.0
         for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
-            b, of_spring = other + other_growth, -z[:, None] if curvature else 1.0
+            b, height = other + other_growth, z[:, None, None, None]
             xx, yy, xy, yx = (a[..., i] * b[..., j] for i, j in COMPONENTS)
-            by_change += np.stack([xx, yy, xy + yx], axis=-1) * (self.shares * of_spring)[..., None, None]
+            by_strain = np.stack([xx, yy, xy + yx], axis=-1) * self.shares[..., None, None]
+            by_change += np.concatenate([by_strain, -height * by_strain], axis=-1)
         by_change = by_change.swapaxes(0, 1)
         if not isinstance(self.family, SpringCells):
             return np.concatenate([np.zeros_like(by_change), by_change], axis=2)
-        none = np.zeros((1, len(by_change[0]), len(SIZE_POWERS), 3))
-        return np.concatenate([none if curvature else self._of_stiffness(strain), by_change], axis=2)
+        by_strain = self._of_stiffness(strain)
+        return np.concatenate([np.append(by_strain, 0.0 * by_strain, axis=-1), by_change], axis=2)
 
     def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
         """Return the rates (1, c, n, 3) of a cell's constants, by the change of its natural sides."""

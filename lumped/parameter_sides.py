@@ -8,19 +8,23 @@ line of the grid, where its shares have a kink, has the mean of both sides.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from lumped.calibration import MAKERS, Calibration
+from lumped.calibration.closed_form import NoClosedForm
+from lumped.calibration.consistent import springs_of_sheets
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import sections_of
 from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
+from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.meaning.parameters import FIBRES, OF_LAWS, parameter, put, short_name
 
 STEP = 1e-5  # of a parameter, for the difference of residuals
@@ -59,41 +63,52 @@ def both_sides(
     step = share * abs(value) or step
     if step == 0.0:
         raise BadInput(f"parameter {name!r} is zero: differences need a scale")
-    sides, ends = [], np.clip([value - step, value + step], low, high).tolist()
-    for end in ends:
-        if of_springs:
-            side, springs = scene, calibration.with_constant(name, end)
-        else:
-            side, springs = of_changed(scene, calibration, name, end, calibrate, name.startswith(EDGES))
-        sides.append((build_problem(side, springs, previous=problem), springs))
-    return sides, ends[1] - ends[0]
+    ends = np.clip([value - step, value + step], low, high).tolist()
+    if of_springs:
+        sides = [(scene, calibration.with_constant(name, end)) for end in ends]
+    else:
+        sides = of_changed(scene, calibration, name, ends, calibrate, name.startswith(EDGES))
+    made = [(build_problem(side, springs, previous=problem), springs) for side, springs in sides]
+    return made, ends[1] - ends[0]
 
 
 def of_changed(
     scene: Scene,
     calibration: Calibration,
     name: str,
-    value: float,
+    values: Sequence[float],
     calibrate: Calibrate | None,
     checked: bool = True,
-) -> tuple[Scene, Calibration]:
-    """Return the scene with another value (`put`), and its springs, calibrated again if they depend
+) -> list[tuple[Scene, Calibration]]:
+    """Return the scenes with other values (`put`), and the springs of each, calibrated again if they depend
     on it."""
     begins_on = name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
-    changed = put(scene, name, value, checked and not begins_on)
-    grid, grading, material = calibration.grid, calibration.grading, changed.material
-    if not name.startswith(CALIBRATED_FROM):
-        if name != "density" or calibration.cells is None:
-            return changed, calibration
-        return changed, replace(calibration, cells=sections_of(changed, grid, grading))
-    if calibrate is not None:
-        return changed, calibrate(changed)
-    if calibration.method not in MAKERS:
-        raise BadInput(
-            f"springs of calibration '{calibration.method}' do not follow from the sheet and its material"
-        )
-    own: dict[str, Any] = {"grading": grading} if grading else {}
-    if (cells := sections_of(changed, grid, grading)) is not None:
-        own["cells"] = cells
-    make = MAKERS[calibration.method]
-    return changed, calibrated_at_rest(changed, lambda sheet: make(sheet, material, grid, **own))
+    scenes = [put(scene, name, value, checked and not begins_on) for value in values]
+    springs = [calibration] * len(scenes)
+    if name.startswith(CALIBRATED_FROM):
+        springs = [*map(calibrate, scenes)] if calibrate else _calibrated(calibration, scenes)
+    elif name == "density" and calibration.cells is not None:
+        grid, grading = calibration.grid, calibration.grading
+        springs = [replace(calibration, cells=sections_of(one, grid, grading)) for one in scenes]
+    return [*zip(scenes, springs, strict=True)]
+
+
+def _calibrated(calibration: Calibration, scenes: Sequence[Scene]) -> list[Calibration]:
+    """Return the springs of scenes by a calibration's method, on its grid; of isotropic sheets without parts
+    in one pass."""
+    method, grid, grading = calibration.method, calibration.grid, calibration.grading
+    if method not in MAKERS:
+        raise BadInput(f"springs of calibration '{method}' do not follow from the sheet and its material")
+    plain = calibration.cells is None and not (grading or scenes[0].natural)
+    if plain and method.startswith("consistent"):
+        with suppress(NoClosedForm):
+            sheets = [(sheet_at_rest(one), one.material) for one in scenes]
+            found = springs_of_sheets(sheets, grid, method)
+            return [replace(calibration, springs=one.table()) for one in found]
+
+    def of(scene: Scene) -> Calibration:
+        given = {"grading": grading or None, "cells": sections_of(scene, grid, grading)}
+        own: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+        return calibrated_at_rest(scene, lambda sheet: MAKERS[method](sheet, scene.material, grid, **own))
+
+    return [*map(of, scenes)]

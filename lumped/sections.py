@@ -95,7 +95,7 @@ class CellSection:
         """Width λ (…, 2) [m] of the layer in which the twisting moment fades at free edges normal to x and to
         y: √(D/S), D `twisting` and S along the edge, without shear across it; h/√10 of an isotropic sheet."""
         twist = twisting(free_bending(self.membrane, self.mixed, self.bending))
-        return np.sqrt(_ratio(twist, self.free_shear[..., ::-1]))
+        return np.sqrt(ratio(twist, self.free_shear[..., ::-1]))
 
 
 PARTS = ("membrane", "bending", "shear", "mixed", "per_area")
@@ -111,7 +111,7 @@ def free_bending(membrane: np.ndarray, mixed: np.ndarray, bending: np.ndarray) -
 
 def free(shear: np.ndarray, coupling: np.ndarray) -> np.ndarray:
     """Return S along x and y (…, 2) without a force the other way, from shear (…, 2) and coupling (…)."""
-    return np.asarray(shear - _ratio((coupling**2)[..., None] + 0.0 * shear, shear[..., ::-1]))
+    return np.asarray(shear - ratio((coupling**2)[..., None] + 0.0 * shear, shear[..., ::-1]))
 
 
 def twisting(bending: np.ndarray) -> np.ndarray:
@@ -119,7 +119,7 @@ def twisting(bending: np.ndarray) -> np.ndarray:
     D26²/D22: at an edge that bends freely the moment across it stays 0, and fibres at an angle turn twist
     into bending."""
     normal = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
-    return np.asarray(bending[..., 2, 2, None] - _ratio(bending[..., :2, 2] ** 2, normal))
+    return np.asarray(bending[..., 2, 2, None] - ratio(bending[..., :2, 2] ** 2, normal))
 
 
 def stretch_by_twist(bending: np.ndarray) -> np.ndarray:
@@ -127,14 +127,14 @@ def stretch_by_twist(bending: np.ndarray) -> np.ndarray:
     `twisting` (2 κ_nt + r κ_tt), κ_tt the curvature along the edge; r = 0 for fibres along the sides."""
     twist, skew = bending[..., 2, 2], bending[..., :2, 2][..., ::-1]  # D66; D26, D16
     normal = np.diagonal(bending, axis1=-2, axis2=-1)[..., :2]
-    along = skew - _ratio(bending[..., 0, 1, None] * bending[..., :2, 2], normal)
-    ratio = _ratio(along, twisting(bending))
-    return np.where(np.abs(along) > ROUNDING * twist[..., None], ratio, 0.0)
+    along = skew - ratio(bending[..., 0, 1, None] * bending[..., :2, 2], normal)
+    skewed = np.abs(along) > ROUNDING * twist[..., None]
+    return np.where(skewed, ratio(along, twisting(bending)), 0.0)
 
 
-def _ratio(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
+def ratio(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
     """Return part/whole, 0 for absent cells."""
-    return np.divide(part, whole, out=np.zeros_like(part), where=whole > 0.0)
+    return np.divide(part, whole, out=np.zeros(np.broadcast(part, whole).shape), where=whole > 0.0)
 
 
 def of_cells(cells: Cells, grid: Grid) -> CellSection:

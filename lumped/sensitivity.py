@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import Calibration, default
-from lumped.contact import middle
 from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient, Plain
 from lumped.mid_surface import MidSurface
 from lumped.parameter_sides import Calibrate, of_changed
 from lumped.statics.problem import LatticePath, Problem
 from lumped.statics.solver import solve_path
 from sheetbench.answers.solution import Status
+from sheetbench.errors import BadInput
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, require_static, scene_of
@@ -53,29 +53,37 @@ class Differentiable:
         self.scene = scene_of(scene)
         require_static(self.scene)
         self.calibration, self._calibrate = calibration or default(self.scene), calibrate
-        self._base = Plain.of(self.scene, self.calibration, calibrate)
-        self._plain = Equilibrium(self._base, np.zeros_like(self._base.problem.loads.dead))
-        self._last, self._values = self._plain, dict[str, np.ndarray]()
+        self.plain = Plain.of(self.scene, self.calibration, calibrate)
+        self._unsolved = Equilibrium(self.plain, np.zeros_like(self.plain.problem.loads.dead))
+        self._last, self._values = self._unsolved, dict[str, np.ndarray]()
 
     @property
     def base(self) -> dict[str, np.ndarray]:
         """The scene's own fields over the cells, and zero forces."""
-        fields = {FIELD + name: field for name, field in self._plain.cells.base.items()}
-        return {**fields, FORCES: np.zeros_like(self._plain.u)}
+        fields = {FIELD + name: field for name, field in self.plain.cells.base.items()}
+        return {**fields, FORCES: np.zeros_like(self._unsolved.u)}
 
     @property
     def problem(self) -> Problem:
         """The scene's lattice under its supports and loads, with its own values."""
-        return self._plain.plain
+        return self.plain.problem
 
     def at(self, points: np.ndarray) -> Any:
-        """Return the sparse map (3 p, 3 n), both flat, of displacements to values at plan points (p, 2)."""
-        return MidSurface(self._plain.problem.assembly.lattice, points).matrix(len(self._plain.u))
+        """Return the sparse map (3 p, 3 n), both flat, of displacements to values at plan points (p, 2).
+        Raises BadInput beside obstacles whose surface of contact is curved, and not linear in u."""
+        if any(one.bent for one in self.problem.contacts):
+            raise BadInput("at: the surface beside an obstacle is curved: take surface(points)")
+        return self._unsolved.surface(points)[1].matrix(len(self._unsolved.u))
+
+    def surface(self, points: np.ndarray) -> tuple[np.ndarray, MidSurface]:
+        """Return the last solve's displacement (p, 3) [m] at plan points (p, 2), and the map of its
+        changes."""
+        return self._solved().surface(points)
 
     def solve(self, values: Mapping[str, Any]) -> np.ndarray:
         """Return the displacement (n, 3) [m] of the stable equilibrium with the given values, sought from the
         last solution first. Raises NoEquilibrium where there is none, BadInput for other names."""
-        at, path = self.path(values, None if self._last is self._plain else self._last.u)
+        at, path = self.path(values, None if self._last is self._unsolved else self._last.u)
         require_stable("lumped", path.status, path.notes)
         at.u, self._last = path.state.u, at
         self._values = {name: np.array(value, float) for name, value in values.items()}
@@ -87,9 +95,10 @@ class Differentiable:
         scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
-            scene, calibration = of_changed(scene, calibration, name, float(values[name]), self._calibrate)
-        base = self._base if scene is self.scene else Plain(scene, calibration, self._calibrate)
-        at = Equilibrium(base, self._plain.u, fields)
+            value = [float(values[name])]
+            ((scene, calibration),) = of_changed(scene, calibration, name, value, self._calibrate)
+        base = self.plain if scene is self.scene else Plain(scene, calibration, self._calibrate)
+        at = Equilibrium(base, self._unsolved.u, fields)
         near = None if at.problem.assembly.coupling is not None else near
         with one_blas_thread():
             path = solve_path(at.problem, near=near)
@@ -99,9 +108,8 @@ class Differentiable:
 
     def at_points(self, points: np.ndarray, names: Iterable[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Return the scene's own displacement (p, 3) at plan points (p, 2), and its derivatives by name."""
-        plan, problem = np.asarray(points, dtype=float), self.problem
-        found, _ = middle(problem.contacts, problem.assembly.lattice, self.solve({}), plan)
-        return found, {name: self._last.moved_at(plan, name) for name in names}
+        self.solve({})
+        return self.surface(points)[0], {name: self._last.moved_at(points, name) for name in names}
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives of J by name at the last solve's values; by_displacement: ∂J/∂u (n, 3)."""
@@ -111,7 +119,7 @@ class Differentiable:
         """Return the derivatives of J by every given value, in its shape; by_displacement: ∂J/∂u (n, 3).
         Values that are not the last solve's are solved first."""
         last = self._values
-        same = last.keys() == values.keys() and self._last is not self._plain
+        same = last.keys() == values.keys() and self._last is not self._unsolved
         if not (same and all(np.array_equal(value, last[name]) for name, value in values.items())):
             self.solve(values)
         found = self.pullback(by_displacement)
@@ -122,6 +130,6 @@ class Differentiable:
         return self._solved().pushforward(changes)
 
     def _solved(self) -> Equilibrium:
-        if self._last is self._plain:
+        if self._last is self._unsolved:
             self.solve({})
         return self._last

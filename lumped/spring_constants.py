@@ -53,16 +53,16 @@ NONE: Parts = (np.zeros((1, 1)),)
 class Springs:
     """Constants of springs or dampers. of: arrays [N/m] of constants that are not all 0, by name: one or one
     a direction, each (rows, columns); constants of edges one for both, or along x0 (rows, 1) and along y0 (1,
-    columns). layer_distance: [m], 0 of dampers."""
+    columns). layer_distance: [m], 0 of dampers; of several sheets, a row each, (rows, 1)."""
 
     of: dict[str, Parts]
-    layer_distance: float = 0.0
+    layer_distance: Any = 0.0
 
     @classmethod
-    def made(cls, layer_distance: float, **constants: Any) -> Springs:
+    def made(cls, layer_distance: Any, **constants: Any) -> Springs:
         """Return springs from constants, numbers, (rows, columns) or (directions, rows, columns) each."""
         of = {k: tuple(np.array(value, float, ndmin=3)) for k, value in constants.items() if np.any(value)}
-        return cls(of, float(layer_distance))
+        return cls(of, layer_distance if np.ndim(layer_distance) else float(layer_distance))
 
     @classmethod
     def read(cls, table: SpringSet | DamperSet) -> Springs:
@@ -126,6 +126,17 @@ class Springs:
             if name in self.of:
                 stiffness[..., number] = self.along(name, axis)
         return stiffness
+
+    def split(self, count: int) -> list[Springs]:
+        """Return the springs of each of several grids that are row after row (`GridCells.stacked`)."""
+
+        def each(part: np.ndarray) -> np.ndarray:
+            rows = part.reshape(min(count, part.size), -1, 1 if len(part) == 1 else part.shape[1])
+            return np.broadcast_to(rows, (count, *rows.shape[1:]))
+
+        of = {name: [*zip(*map(each, parts), strict=True)] for name, parts in self.of.items()}
+        distances = np.broadcast_to(np.ravel(self.layer_distance), count).tolist()
+        return [Springs({name: parts[n] for name, parts in of.items()}, z) for n, z in enumerate(distances)]
 
     @cached_property
     def upward(self) -> Springs:

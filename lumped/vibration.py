@@ -17,7 +17,6 @@ import scipy.sparse as sp
 from lumped.calibration import Calibration, default
 from lumped.carried import pairs_of, rotary_masses
 from lumped.gradient import Equilibrium
-from lumped.lattice import Lattice
 from lumped.masses import Inertia, mass_matrix
 from lumped.mid_surface import MidSurface
 from lumped.mode_sensitivity import ModeGradient
@@ -49,13 +48,14 @@ class Modes(NaturalModes):
         Number of rigid motions, which are left out.
     unknowns : int
         Number of free unknowns.
-    lattice : Lattice
-        Lattice of the masses.
+    surface : callable
+        Function of plan points (p, 2) [m] that returns places of the mid-surface there, and the map of its
+        changes.
     gradient_of : callable, optional
         Function of a mode's number that returns the derivatives of its frequency.
     """
 
-    lattice: Lattice
+    surface: Callable[[np.ndarray], tuple[np.ndarray, MidSurface]]
     gradient_of: Callable[[int], Any] | None = None
 
     def sensitivity(self, number: int) -> Any:
@@ -76,7 +76,7 @@ class Modes(NaturalModes):
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
-        at = MidSurface(self.lattice, points)
+        _, at = self.surface(points)
         return np.stack([at.of(shape) for shape in self.shapes])
 
     def heading(self) -> tuple[str, str, str]:
@@ -173,7 +173,7 @@ def modes(
     elastic = values[rigid:], vectors[:, rigid:]
     gradient = partial(_frequency_gradient, bare, calibration, at, loaded, shared, *elastic)
     gradient_of = None if problem.prestrained and not loaded else gradient
-    return Modes(frequencies, shapes, rigid, unknowns, problem.assembly.lattice, gradient_of)
+    return Modes(frequencies, shapes, rigid, unknowns, partial(problem.middle, at), gradient_of)
 
 
 def _frequency_gradient(

@@ -24,7 +24,7 @@ _MODULES = {  # `__init__.pyi`, which type checkers read, is made of these and o
     "sheetbench.answers.solution": "Solution Status",
     "sheetbench.face": "solve study",
     "sheetbench.scenes": (
-        "Air AreaLoad BadInput Chain Circle Clamped CurvatureTable Curved Cutout Cylinder EdgeLoad "
+        "Air AreaLoad BadInput Box Chain Circle Clamped CurvatureTable Curved Cutout Cylinder EdgeLoad "
         "EdgeMotion FactorTable Gravity Held Hinged Implausible Initial Layer Mass Material Motion Natural "
         "Patch PerDirection Plane Point PointLoad Pressure Rectangle Relaxation Scene SceneError Shape Sheet "
         "Sphere Symmetric Temperature DamperSet=Dampers SpringSet=Springs catalogue load"

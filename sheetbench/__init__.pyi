@@ -47,6 +47,7 @@ from sheetbench.face import study as study
 from sheetbench.scenes import Air as Air
 from sheetbench.scenes import AreaLoad as AreaLoad
 from sheetbench.scenes import BadInput as BadInput
+from sheetbench.scenes import Box as Box
 from sheetbench.scenes import Chain as Chain
 from sheetbench.scenes import Circle as Circle
 from sheetbench.scenes import Clamped as Clamped
@@ -133,6 +134,7 @@ __all__ = [
     "Air",
     "AreaLoad",
     "BadInput",
+    "Box",
     "Cell",
     "Chain",
     "Circle",

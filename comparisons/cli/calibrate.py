@@ -66,9 +66,9 @@ def command(
         calibration (NAME): {SUMMARIES}; auto: by the SCENE, as with --grading auto. Default: {CALIBRATION}.
         toml: Print the [springs] table for a scene file.
         for_ (CODE): Numbers for another code, with --out its files too. mujoco, newton, pybullet, genesis:
-            its own sheet of triangles; sofa: the lattice's springs; numpy, cpp, matlab: the lattice and a
-            program that reads it; c: one C file that steps it, with a check;
-            fmu: that as an FMI 3.0 unit.
+            its own sheet of triangles; sofa: the lattice's springs; numpy, matlab: the lattice and a program
+            that reads it; c: one C file that steps it and finds it at rest, with a check; fmu: that as an
+            FMI 3.0 unit.
         precision (NAME): Precision of the numbers (with --for c or fmu): double or single. Default: double.
         from_ (CODE): Find the sheet that belongs to another code's numbers, given in place of the SCENE as
             tri_ke=1e3,tri_ka=1e3,edge_ke=10; --cell: its mesh; --spacing: the distance of its vertices.

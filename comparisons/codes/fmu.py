@@ -15,17 +15,12 @@ import tempfile
 import uuid
 import zipfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
 from comparisons.codes.files import script
-from comparisons.codes.onefile import Program, program
+from comparisons.codes.onefile import Program
 from sheetbench.answers.report import Write
 from sheetbench.files import replacing
-from sheetbench.scenes import Scene
-
-if TYPE_CHECKING:
-    from lumped import Calibration
 
 UNITS = {"m": 'm="1"', "s": 's="1"', "m/s2": 'm="1" s="-2"'}
 UNITS |= {"N": 'kg="1" m="1" s="-2"', "J": 'kg="1" m="2" s="-2"'}
@@ -65,31 +60,29 @@ def description(name: str, of: Program) -> str:
     )
 
 
-def library(texts: dict[str, str]) -> tuple[str, bytes] | None:
-    """Return a library for this machine, its place in a unit and its content, or None without a compiler."""
+def library(texts: dict[str, str]) -> dict[str, bytes]:
+    """Return a library for this machine by its place in a unit, nothing without a working compiler."""
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
-    system = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib")}.get(sys.platform)
-    if compiler is None or system is None:
-        return None
+    system, ending = {"linux": ("linux", "so"), "darwin": ("darwin", "dylib")}.get(sys.platform, ("", ""))
+    if not (compiler and system):
+        return {}
     machine = {"amd64": "x86_64", "arm64": "aarch64"}.get(platform.machine().lower(), platform.machine())
+    flags = ["-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-o", "out", "-lm"]
     with tempfile.TemporaryDirectory() as folder:
         for name, text in texts.items():
             Path(folder, name).write_text(text, encoding="utf-8")
-        flags = ["-std=c99", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-o", "out", "-lm"]
         command = [compiler, "sheet.c", "fmi3.c", *flags]
-        if subprocess.run(command, cwd=folder, capture_output=True).returncode:
-            return None
-        return f"binaries/{machine}-{system[0]}/sheet{system[1]}", Path(folder, "out").read_bytes()
+        failed = subprocess.run(command, cwd=folder, capture_output=True).returncode
+        place = f"binaries/{machine}-{system}/sheet.{ending}"
+        return {} if failed else {place: Path(folder, "out").read_bytes()}
 
 
-def fmu_files(scene: Scene, calibration: Calibration, precision: str) -> tuple[dict[str, Write], list[str]]:
-    """Return the file of `--for fmu`, and its missing parts. Raises BadInput as `program`."""
-    of = program(scene, calibration, precision)
+def fmu_files(name: str, of: Program) -> tuple[dict[str, Write], list[str]]:
+    """Return the file of `--for fmu` of a scene, and its missing parts."""
     sources = {name: of.texts[name] for name in ("sheet.h", "sheet.c")} | {"fmi3.c": script("fmi3.c")}
-    content: dict[str, str | bytes] = {"modelDescription.xml": description(scene.name, of)}
-    content |= {f"sources/{name}": text for name, text in (sources | {"buildDescription.xml": BUILD}).items()}
     built = library(sources)
-    content |= {built[0]: built[1]} if built else {}
+    content: dict[str, str | bytes] = {"modelDescription.xml": description(name, of), **built}
+    content |= {f"sources/{name}": text for name, text in (sources | {"buildDescription.xml": BUILD}).items()}
     missing = [] if built else ["no working compiler: sheet.fmu has its sources only"]
     return {"sheet.fmu": functools.partial(write_zip, content=content)}, missing
 

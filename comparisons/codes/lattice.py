@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.codes.files import script, to_sofa
 from comparisons.codes.fmu import fmu_files
-from comparisons.codes.onefile import c_files
+from comparisons.codes.onefile import program
 from comparisons.codes.tables import NAMES, arrays, contacts, natural, tables
 from comparisons.pictures.array_files import write_mat, write_npz
 from comparisons.sweep.folder import Folder
@@ -24,6 +24,7 @@ from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import require_flat_at_rest
 from sheetbench.scenes.meaning.distances import require_no_obstacles
 from sheetbench.scenes.meaning.words import in_words
+from sheetbench.scenes.objects.obstacles import Box
 from sheetbench.sources import version
 
 if TYPE_CHECKING:
@@ -124,7 +125,7 @@ mode, {lowest:.4g} Hz flat, is critically damped by a drag of {critical:.4g} 1/s
 {arrays}
 
 Programs that read this folder and solve it, of rubber and obstacles the one in NumPy: `sheetbench calibrate
-SCENE --for numpy --out DIR`, likewise `cpp` and `matlab`.
+SCENE --for numpy --out DIR`, likewise `matlab`; `c` is a program in C without tables.
 """
 
 
@@ -160,7 +161,7 @@ def page(lattice: Description, scene: Scene, calibration: Calibration, others: I
 
 
 SOFA = "sofa"  # has links alone
-READERS = {"numpy": "read_lattice.py", "cpp": "read_lattice.cpp", "matlab": "read_lattice.m"}
+READERS = {"numpy": "read_lattice.py", "matlab": "read_lattice.m"}
 IN_MOTION = ("c", "fmu")  # programs that step it
 CODES = (SOFA, *READERS, *IN_MOTION)
 
@@ -176,13 +177,15 @@ def lattice_files(
     and for features that the code lacks."""
     import lumped
 
+    require_no_obstacles(scene, "an exported lattice", Box)
     if code in IN_MOTION:
+        motion = program(scene, calibration, precision)
         if code == "fmu":
-            return fmu_files(scene, calibration, precision)
-        return c_files(scene, calibration, precision), []
+            return fmu_files(scene.name, motion)
+        return {name: partial(write_text, text=text) for name, text in motion.texts.items()}, []
     if code == SOFA:
         require_flat_at_rest(scene, "--for sofa")
-    if code in (SOFA, "cpp", "matlab"):
+    if code in (SOFA, "matlab"):
         require_no_obstacles(scene, f"the reader of --for {code}")
     lattice = lumped.describe(scene, calibration)
     added = {name: script(name) for reader, name in READERS.items() if reader == code}

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from string import Template
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,8 +17,7 @@ import numpy as np
 import lumped
 from comparisons.codes.c_tables import PRECISIONS, WHOLE, Tables, identifiers
 from comparisons.codes.files import script
-from sheetbench.answers.files import write_text
-from sheetbench.answers.report import Write
+from sheetbench.answers.history import ENERGIES
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, require_no_branches, tilt_axes
 from sheetbench.scenes.meaning.natural_state import sources_of
@@ -31,9 +29,10 @@ from sheetbench.sources import version
 if TYPE_CHECKING:
     from lumped import Calibration, State, System
 
+NO_GRAVITY = Gravity(acceleration=(0.0, 0.0, 0.0))
+LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
-LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
 
 
 class Program(NamedTuple):
@@ -73,38 +72,35 @@ def program(
     bodies = [*named(scene.supports), *scene.named_obstacles()]
     labels = {"POINT": scene.probes, "BODY": bodies, "SOURCE": [source.name for source in sources]}
     names = {kind: identifiers(of) for kind, of in labels.items()}
-    steady = scene.gravity is not None and scene.gravity.history is None
-    gravity = scene.gravity.acceleration if scene.gravity is not None and steady else (0.0, 0.0, 0.0)
+    steady = scene.gravity if scene.gravity and not scene.gravity.history else NO_GRAVITY
     inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
-    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", gravity, strict=True)}
+    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady.acceleration, strict=True)}
     inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
     outputs = {f"{point}.u{axis}": "m" for point in names["POINT"] for axis in "xyz"}
     outputs |= {f"{body}.R{axis}": "N" for body in names["BODY"] for axis in "xyz"}
-    outputs |= {f"energy.{name}": "J" for name in ("kinetic", "elastic", "potential")}
+    outputs |= {f"energy.{name}": "J" for name in ENERGIES[:3]}
     (nx, ny, layers), n = lattice.grid, lattice.mass_count
     size, middles = n + nx * ny, lattice.positions.reshape(-1, layers, 3).mean(axis=1)
     tables.lines.append(f"typedef {WHOLE[np.min_scalar_type(size).itemsize]} entry;")
     tables.add("SHEET_REST", np.concatenate([lattice.positions, middles]), storage="")
     add_springs(tables, system)
     add_masses(tables, system)
-    for name, order in (("PROBE", 3), ("NEAR", 1)):
-        surface = lumped.MidSurface(lattice, scene.probe_points(), order=order)
-        shares = surface.shared(np.eye(len(scene.probes)), n)
-        tables.add_sparse(name, np.pad(shares.T[:, ::layers] * layers, ((0, 0), (n, 0))))
-    add_loads(tables, system, calibration, gravity)
+    add_loads(tables, system, calibration, steady.acceleration)
     add_contact(tables, system)
-    motions = [body.motion for body in (*scene.supports, *scene.obstacles)]
-    tables.add("MOTION", [tables.curve(motion, "displacement") for motion in motions], "int")
-    tables.add("SOURCE", [tables.curve(source.of.history, "factor") for source in sources], "int")
-    grown = add_growth(tables, system)
+    add_growth(tables, system)
+    motions = [tables.curve(body.motion, "displacement") for body in (*scene.supports, *scene.obstacles)]
+    loads = dict.fromkeys(one.history for one in (scene.gravity, *scene.loads) if one and one.history)
+    histories = [tables.curve(one, "factor") for one in (*(source.of.history for source in sources), *loads)]
+    tables.add("MOTION", motions, "int")
+    tables.add("HISTORY", histories, "int")
     tables.add("KNOT", [*tables.knots, *np.zeros((2, 5))], "double")
     tables.add("FIRST", [*tables.starts, 0])
     tables.add("INPUT", [start for _, start in inputs.values()])
     tables.add("START", start.u if start.u.any() else start.u[:1])
     sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
-    sizes |= {"SOURCES": len(sources), "MASSES": n, "ROWS": size, "LAYERS": layers, "COLUMNS_X": nx}
-    sizes |= {"COLUMNS_Y": ny, "AIR": size if scene.air else 0, "GROWN": grown}
-    sizes["TOUCHING"] = tables.sizes["CONTACTS"]
+    sizes |= {"SOURCES": len(sources), "LOADS": len(loads), "MASSES": n, "ROWS": size, "LAYERS": layers}
+    sizes |= {"COLUMNS_X": nx, "COLUMNS_Y": ny, "AIR": size if scene.air else 0}
+    sizes |= {name: tables.sizes.pop(name) for name in ("CONTACTS", "GROWN")}
     numbers = [f"SHEET_{name} = {size}" for name, size in sizes.items()]
     numbers += [f"SHEET_{kind}_{name} = {k}" for kind, of in names.items() for k, name in enumerate(of)]
     rubber = system.assembly.any_strain
@@ -129,19 +125,19 @@ def samples(system: System, start: State, step: float, steps: int) -> list[list[
     """Return time [s], probes [m], forces of supports and obstacles [N] and energies [J] of some of so many
     of `lumped`'s own steps [s]. Raises StepFailed."""
     probes = lumped.MidSurface(system.assembly.lattice, system.scene.probe_points())
-    rows, done, state, integrator = [], 0, start, lumped.INTEGRATORS["verlet"](system, step)
-    for end in range(0, steps + 1, steps // MOMENTS):
-        while done < end:
-            advance = integrator.march(state, step, end - done)
-            state, done = advance.state, done + advance.steps
+    rows, state, integrator = [], start, lumped.INTEGRATORS["verlet"](system, step)
+    for left in (0, *[steps // MOMENTS] * MOMENTS):
+        while left:
+            advance = integrator.march(state, step, left)
+            state, left = advance.state, left - advance.steps
         if not (system.assembly.any_strain or system.assembly.links.largest_strain(state.u) < LARGEST):
             raise lumped.StepFailed(f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times its length")
         acceleration = state.a + system.prescribed.support_acceleration(state.time)
         energies, exerted = system.balance(replace(state, a=acceleration))
-        at = state.u, system.drive(state.time)
         forces = [*system.problem.constraints.reactions(exerted)[0].values()]
+        at = state.u, system.drive(state.time)
         forces += [item.exerted(at, state.v).sum(axis=0) for item in system.items]
-        row: list[Any] = [[state.time], probes.of(state.u).ravel(), *forces, [*energies.values()]]
+        row = [[state.time], *probes.of(state.u), *forces, [*energies.values()]]
         rows.append(np.concatenate(row).tolist())
     return rows
 
@@ -207,17 +203,19 @@ def add_masses(tables: Tables, system: System) -> None:
 
 
 def add_loads(tables: Tables, system: System, calibration: Calibration, gravity: Sequence[float]) -> None:
-    """Add weights per gravity [m/s²], dead loads without the weight by a gravity, pressures and moments, by
-    their histories, and the air's drag."""
+    """Add points, after them the weight per gravity [m/s²], dead loads without the weight by a gravity,
+    pressures and moments, by their histories, and the air's drag."""
     import scipy.sparse as sp
 
     scene, lattice, drag = system.scene, system.assembly.lattice, system.damping.drag
+    layers, n, parts = lattice.grid[2], lattice.mass_count, system.problem.loads.parts
     unit = scene.replace(gravity=Gravity(acceleration=(0.0, 0.0, -1.0)), loads=())
     weight = -lumped.build_problem(unit, calibration).loads.parts[0].dead[:, 2]
-    tables.add("WEIGHT", np.pad(weight, (0, len(weight) // lattice.grid[2])))
-    parts = system.problem.loads.parts
-    histories = [one.history for one in (scene.gravity, *scene.loads) if one and one.history]
-    tables.add("LOAD", [tables.curve(one, "factor") for one in (None, *dict.fromkeys(histories))], "int")
+    surfaces = [lumped.MidSurface(lattice, scene.probe_points(), order=order) for order in (3, 1)]
+    shares = [of.shared(np.eye(len(scene.probes)), n).T[:, ::layers] * layers for of in surfaces]
+    probe, near = (np.pad(of, ((0, 0), (n, 0))) for of in shares)
+    tables.add_sparse("PROBE", probe)
+    tables.add_sparse("NEAR", [*near, np.pad(weight, (0, n // layers))])
     dead = [part.dead - (part is parts[0]) * np.outer(weight, gravity) for part in parts]
     tables.add_sparse("DEAD", np.reshape(dead, (len(parts), -1)))
     tables.add_sparse("PRESSURE", [part.pressure for part in parts])
@@ -253,10 +251,8 @@ def add_contact(tables: Tables, system: System) -> None:
     tables.add("CONTACT", np.concatenate(bodies))
     tables.add("POINT_AT", middle_of(system, np.concatenate(columns)))
     tables.add_distinct("POINT", np.concatenate(rows))
-    radii = [0.0 if isinstance(body, Plane) else body.radius for body in obstacles]
-    pairs = zip(obstacles, radii, strict=True)
-    shapes = [[*o.position, *o.direction, radius, o.contact_damping, o.friction] for o, radius in pairs]
-    tables.add("OBSTACLE", np.reshape(shapes, (-1, 9)))
+    shapes = [[*o.position, *o.direction, o.radius, o.contact_damping, o.friction] for o in obstacles]
+    tables.add("OBSTACLE", np.nan_to_num(np.reshape(shapes, (-1, 9)), posinf=0.0))
     tables.add("BLOCK", np.concatenate(blocks), "int")
     if tables.sizes["BLOCKS"]:
         (x, wx), (y, wy) = (np.polynomial.legendre.leggauss(order) for order in (4, 16))
@@ -264,10 +260,9 @@ def add_contact(tables: Tables, system: System) -> None:
         tables.add("ACROSS", np.stack([0.5 * (3.0 * y - y**3), 1.5 * (1.0 - y**2) * wy], axis=1))
 
 
-def add_growth(tables: Tables, system: System) -> int:
+def add_growth(tables: Tables, system: System) -> None:
     """Add the springs' measures without stress, a quadratic form of the factors of natural states: of each
-    alone, and of the products with itself and those before. Return the number of measures, 0 of a sheet that
-    is flat at rest."""
+    alone, and of the products with itself and those before; none of a sheet that is flat at rest."""
     state: Any = system.assembly.natural
     dampers = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
 
@@ -283,10 +278,4 @@ def add_growth(tables: Tables, system: System) -> int:
         products = [measured(*(unit + other)) - plus - measured(*other) for other in units[:number]]
         terms += [0.5 * (plus - minus), *products, 0.5 * (plus + minus)]
     tables.add("GROWTH", terms or np.empty((0, 1)))
-    return len(terms[0]) if terms else 0
-
-
-def c_files(scene: Scene, calibration: Calibration, precision: str) -> dict[str, Write]:
-    """Return the files of `--for c`."""
-    files = program(scene, calibration, precision).texts
-    return {name: partial(write_text, text=text) for name, text in files.items()}
+    tables.sizes["GROWN"] = len(terms[0]) if terms else 0

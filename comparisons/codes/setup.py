@@ -137,6 +137,8 @@ class CodeSetup(CellInScene):
             return f"mass: {self.code.title} has one density for all vertices"
         if self.scene.obstacles and self.code.name not in OBSTACLES:
             return f"obstacle: files for {' and '.join(OBSTACLES)} only have it"
+        if any(one.kind == "box" for one in self.scene.obstacles):
+            return "obstacle: files have no box"
         return refusal(self.scene)
 
     def _warn_of_depth(self) -> str:

@@ -148,7 +148,6 @@ def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> F
     base = sheet.base[array]
     present, measured_components = base > 0.0, measured.measured.ravel()
     weights = 1.0 / np.repeat(measured.deviation, 3)[measured_components]
-    observe = weights[:, None] * sheet.at(measured.points).toarray()[measured_components]
     data, count = weights * measured.displacement.ravel()[measured_components], int(measured_components.sum())
     lattice = sheet.problem.assembly.lattice
     widths = [line.widths for line in lattice.lines]
@@ -158,7 +157,10 @@ def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> F
         evaluations += 1
         values = base.copy()
         values[present] *= np.exp(p)
-        residuals = observe @ sheet.solve({array: values}).ravel() - data
+        u = sheet.solve({array: values})
+        found, surface = sheet.surface(measured.points)
+        residuals = weights * found.ravel()[measured_components] - data
+        observe = weights[:, None] * surface.matrix(len(u)).toarray()[measured_components]
         context().progress(f"{name} of {len(p)} cells: χ²/n = {residuals @ residuals / count:.3g}")
         rows = (sheet.pullback(row.reshape(-1, 3))[array] for row in observe)
         slopes = np.array([(values * row)[present] for row in rows])

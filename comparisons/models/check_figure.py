@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from shapely import LineString
+from shapely import MultiPoint
 
 from comparisons.pictures.plan import edge_ends, held_lines, load_arrows
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
@@ -60,10 +60,11 @@ def compose(scene: Scene, style: FigureStyle = PLAIN) -> Figure:
             axis.plot(*1e3 * np.array(payload.at), "s", markersize=7, color=PAYLOAD)
     for obstacle in scene.obstacles:
         if not isinstance(obstacle, Plane):  # a plane has no outline
-            half = max(scene.sheet.lengths) * obstacle.direction
-            ends = np.array(obstacle.position) + np.outer((-1.0, 1.0), half)
-            caps: Any = "flat" if any(obstacle.direction[:2]) else "round"
-            shadow = LineString(ends[:, :2]).buffer(obstacle.radius, cap_style=caps)
+            sides, along = np.array([[1, 1], [1, -1], [-1, -1], [-1, 1]]), obstacle.direction[:2]
+            corners = obstacle.position[:2] + sides * obstacle.core[:2]
+            corners += np.outer(sides[:, 0], max(scene.sheet.lengths) * along)
+            caps: Any = "flat" if along.any() else "round"
+            shadow = MultiPoint(corners).convex_hull.buffer(obstacle.radius, cap_style=caps)
             axis.add_patch(_filled(shadow, facecolor=OBSTACLE, edgecolor=DARK, alpha=0.5, linestyle="--"))
     _arrows(axis, scene, 1e3 * LONGEST * lengths.max())
     for name, at in scene.probes.items():

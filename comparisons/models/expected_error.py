@@ -9,8 +9,8 @@ in the norm of `error` (largest component over the probes; Roache, J. Fluids Eng
 form for a known finer answer). The finer grid has half as many cells again, and at least FINEST_COARSE along
 the shorter side, because the error is not yet second order on coarser grids.
 
-A chain has as many divisions as the grid (`lumped.actuators.division`), so the finer lattice has a finer
-chain.
+A chain has about as many parts as the grid has cells (`lumped.actuators.division`), whole numbers of each
+segment; the finer grid has so many cells that the chain is divided FINER as well, up to MOST_PARTS.
 
 The estimate covers the grid error alone; differences that remain on every grid, as between laws of strain,
 are not in it. No estimate is given
@@ -41,10 +41,10 @@ from comparisons.models.spec import Lattice
 from comparisons.pictures.plan import inside
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.choices import EXTRAPOLATED
-from sheetbench.scenes import Scene
+from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
-from sheetbench.scenes.objects.obstacles import Sphere
+from sheetbench.scenes.objects.obstacles import Box, Sphere
 
 FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -90,10 +90,17 @@ class NoEstimate:
         return f"no estimate of its grid error: {self.reason}."
 
 
-def finer_grid(grid: Grid) -> Grid:
-    """Return the finer grid of the estimate: 1.5 times as many cells, at least FINEST_COARSE."""
+def finer_grid(grid: Grid, scene: Scene | None = None) -> Grid:
+    """Return the finer grid of the estimate: FINER times as many cells, at least FINEST_COARSE, and as many
+    as divide the scene's chains FINER."""
     cells = [n - 1 for n in grid[:2]]
     factor = max(FINER, FINEST_COARSE / min(cells))
+    for chain in scene.actuators if scene else ():
+        if isinstance(chain, Chain):
+            from lumped import refining_cells
+
+            along = cells[EDGES[chain.edge].along_axis]
+            factor = max(factor, refining_cells(chain, along, FINER) / along)
     nx, ny = (int(np.ceil(factor * n - 1e-9)) + 1 for n in cells)
     return nx, ny, grid[2]
 
@@ -114,7 +121,7 @@ def resolves(scene: Scene, grid: Grid) -> bool:
 def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
     """Return a lattice's finer grid and its ratio of cells in plan, or the reason for no estimate."""
     grid = scene_grid(scene, lattice.grid)
-    finer = finer_grid(grid)
+    finer = finer_grid(grid, scene)
     if converges(lattice, finer):
         return finer, prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
     if prod(finer[:2]) > MOST:
@@ -123,10 +130,10 @@ def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
 
 
 def touched_around_points(scene: Scene, solution: Solution, grid: Grid) -> list[str]:
-    """Return the names of the balls that a solution touches on less than a cell of a grid."""
+    """Return the names of the balls and boxes that a solution touches on less than a cell of a grid."""
     cell = np.prod([length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True)])
     bodies, states = scene.named_obstacles(), solution.contacts.items()
-    return [name for name, one in states if 0.0 < one.area < cell and isinstance(bodies[name], Sphere)]
+    return [name for name, one in states if 0.0 < one.area < cell and isinstance(bodies[name], Sphere | Box)]
 
 
 def expected_error(

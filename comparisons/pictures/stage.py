@@ -98,6 +98,7 @@ class Stage:
                 body = pyvista.Cylinder(center=at + offset, direction=along, resolution=80, **size)
             else:
                 body = pyvista.Sphere(radius=radius, center=at, theta_resolution=60, phi_resolution=60)
+                body.points += obstacle.core * np.sign((body.points - at).round(9))
             sharp = isinstance(obstacle, Cylinder)
             self.plotter.add_mesh(
                 body, color=OBSTACLE, opacity=0.55, smooth_shading=True, split_sharp_edges=sharp, **culling

@@ -38,7 +38,7 @@ def limit(
     at rest and ignored in motion; the observed order of other elements is capped at 2.
     """
     from fem_reference.edge_layer import missed_by
-    from fem_reference.uncertainty import SECOND_ORDER, estimate, family_of
+    from fem_reference.uncertainty import FITTED, estimate, largest_order
 
     usable = sorted((row for row in rows if row.usable), key=size)[:3]
     sizes = [*map(size, usable)]
@@ -47,8 +47,8 @@ def limit(
     request, layers = usable[0].request, []
     if request.layered and request.duration is None:
         layers = [missed_by(row.request.scene, row.row["settings"]) for row in usable]
-    family = family_of(request.scene) if request.layered else SECOND_ORDER
-    return estimate([row.u for row in usable], sizes, layers, family)
+    largest = largest_order(request.scene) if request.layered else FITTED
+    return estimate([row.u for row in usable], sizes, layers, largest)
 
 
 def motion_bar(meshes: Sequence[Solved], longer: Solved) -> dict[str, float | None]:

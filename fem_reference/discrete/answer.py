@@ -128,7 +128,7 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
     holding_forces += by_items.values()
     mesh = sheet.drawn(q, line if scene.actuators else None)
     sample: Any = partial(interpolate, plan.mesh, plan.elements, sheet.middles(sheet.displacement(q)))
-    if sheet.touched_without_kinks:
+    if sheet.touched_without_kinks(shape):
         sample = partial(_sample, sample, plan.mesh, shape.vectors)
     contacts = {run.name: run.report(shape) for run in sheet.contacts}
     if contacts:

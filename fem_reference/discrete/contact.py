@@ -156,10 +156,9 @@ class Touching(SheetItem):
         change = change.reshape(len(face), points.shape[1], 3 * n)
         np.add.at(out, (face, back), -change.swapaxes(1, 2) @ slope[face, element, group] @ change)
         loads = self._at_points(load)[:, on]
-        both = np.einsum(
-            "fmp,pa,pb->fmab", loads / found.touch[:, on], self.shares, self.shares, optimize=True
-        )
-        out += np.einsum("fmab,ij->fmaibj", both, projector(self.obstacle)).reshape(out.shape)
+        bent = loads[..., None] * found.curvature[:, on]
+        both = np.einsum("fmpj,pa,pb->fmabj", bent, self.shares, self.shares, optimize=True)
+        out += (both[:, :, :, None] * projector(self.obstacle)[:, None]).reshape(out.shape)
         return self._between(shape, on, out, (loads[..., None] * found.slope[:, on]).sum(axis=0))
 
     def rate(self, shape: SheetShape, low: Touching, high: Touching, over: float) -> np.ndarray:

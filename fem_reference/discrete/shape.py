@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from fem_reference.discrete import tangent_planes
 from fem_reference.shell.element import weighed
 from sheetbench.scenes.objects.relaxation import BranchStep
 
@@ -34,6 +35,16 @@ class SheetShape:
     def rates(self) -> Any:
         """Rates (m, 18, 3) of `vectors`."""
         return self.sheet.surface_change(np.zeros_like(self.q) if self.v is None else self.v)
+
+    def moved_at(self, points: np.ndarray, change: np.ndarray) -> np.ndarray:
+        """Return how much (p, 3) [m] the mid-surface, as obstacles touch it, moves at plan points (p, 2) by a
+        change (N,) of coordinates."""
+        sheet = self.sheet
+        found: np.ndarray = sheet.sample(sheet.displacement(change), points)
+        if not sheet.touched_without_kinks(self):
+            return found
+        on, _, by = tangent_planes.change_at(sheet.plan.mesh, self.vectors, points)
+        return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(change)[on])
 
     @cached_property
     def frame(self) -> Any:

@@ -271,10 +271,9 @@ class Discrete(ABC):
         """Return mid-surface displacements (p, 3) [m] at plan points (p, 2) [m] from all nodes'."""
         return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
 
-    @property
-    def touched_without_kinks(self) -> bool:
-        """Whether obstacles touch its mid-surface as `tangent_planes` has it."""
-        return any(one.bent for one in self.contacts)
+    def touched_without_kinks(self, shape: SheetShape) -> bool:
+        """Return whether obstacles touch its mid-surface as `tangent_planes` has it."""
+        return any(one.bent and one.potential(shape) > 0.0 for one in self.contacts)
 
     def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
         """Return forces (3,) [N] of each support, from M ü + g (N,)."""

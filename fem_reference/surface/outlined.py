@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from shapely import LineString
     from shapely.geometry.base import BaseGeometry
 
-USUAL = 8.0  # sizes across a sheet of the usual fineness
+USUAL = 4.0  # sizes across a sheet, above which borders are divided in proportion
 SKEW = np.pi / 4.0  # largest difference from right angles in a quadrilateral of two triangles
 SKEWEST = np.pi / 3.0  # largest difference from right angles beside rows along the rim
 FLAT = 1e-6  # area of a triangle between points of a straight border, over its longest side squared

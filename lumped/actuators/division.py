@@ -26,6 +26,28 @@ def parts_of_a_segment(chain: Chain, cells: int) -> int:
     return parts + parts * chain.segments % 2 * (chain.base == "middle")
 
 
+def refining_cells(chain: Chain, cells: int, ratio: float) -> int:
+    """Return the smallest number of cells along an edge that divide a chain more finely.
+
+    Parameters
+    ----------
+    chain : Chain
+        The chain.
+    cells : int
+        A number of cells along its edge.
+    ratio : float
+        The least ratio of the numbers of parts.
+
+    Returns
+    -------
+    int
+        The number, 0 where it exceeds MOST_PARTS.
+    """
+    parts = int(np.ceil(ratio * parts_of_a_segment(chain, cells)))
+    enough = chain.segments * (parts - 1) + 1
+    return enough if enough <= MOST_PARTS else 0
+
+
 def mean_curvatures(chain: Chain, frames: Frames) -> np.ndarray:
     """Return the share (joints, pieces) of each joint's length, in a divided chain, that lies in each piece
     of constant curvature."""

@@ -6,15 +6,17 @@ the mid-surface carries the rest of its membrane stiffness (`lumped.calibration.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from lumped import moduli
 from lumped.calibration.calibration import Calibration
 from lumped.grid_lines import Lines, grid_lines
-from lumped.sections import CellSection
+from lumped.sections import PARTS, CellSection
 from lumped.spring_constants import Springs
 from sheetbench.scenes import Constants, Material, Sheet
 from sheetbench.scenes.objects.grading import Graded
@@ -25,7 +27,7 @@ from sheetbench.scenes.objects.grid import Grid
 class GridCells:
     """The cells of a grid, or one cell if all are alike. sides: (rows, columns, 2) [m]; section: (rows,
     columns, …); covered: (rows, columns) bool, cells that the sheet covers; cells: sections of unequal
-    cells, as given."""
+    cells, as given; several: whether every row is a sheet of its own, of equal cells."""
 
     sheet: Sheet
     material: Material
@@ -36,6 +38,18 @@ class GridCells:
     sides: np.ndarray
     section: CellSection
     covered: np.ndarray
+    several: bool = False
+
+    @classmethod
+    def stacked(cls, each: Sequence[GridCells], several: bool = False) -> GridCells:
+        """Return the cells of several grids row after row, alike but for sides and sections."""
+
+        def joined(parts: Iterable[Any], names: Iterable[str]) -> dict[str, Any]:
+            return {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+
+        section = CellSection(**joined([one.section for one in each], PARTS))
+        own = joined(each, ("sides", "covered"))
+        return replace(each[0], cells=None, section=section, several=several, **own)
 
     @cached_property
     def present(self) -> tuple[np.ndarray, CellSection]:

@@ -83,13 +83,14 @@ def springs_of_cells(
     for a cell without a closed form, unless `anyhow`: some springs are then negative."""
     (sides, _), target, layers = grid_cells.present, grid_cells.target, grid_cells.grid[2]
     constants, distance, exists = closed_form(target, sides, layers, layer_distance, **special)
-    if layer_distance is None and len(sides) > 1 and exists.all():
+    one_sheet = not grid_cells.several
+    if layer_distance is None and one_sheet and len(sides) > 1 and exists.all():
         constants, distance, exists = closed_form(target, sides, layers, float(distance.max()), **special)
     if not (anyhow or exists.all()):
         raise NoClosedForm(*sides[np.argmin(exists)])
     of = {name: grid_cells.on_grid(values) for name, values in constants.items()}
     return Springs.made(
-        float(distance.max()),
+        float(distance.max()) if one_sheet else grid_cells.on_grid(distance),
         **{name: by_direction(*v) if name in PAIRS and not anyhow else v for name, v in of.items()},
     )
 

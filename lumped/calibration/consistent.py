@@ -6,21 +6,41 @@ Every cell of a graded grid has its closed form (`lumped.calibration.cell_by_cel
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from lumped import moduli, sections
 from lumped.calibration.calibration import Calibration
-from lumped.calibration.cell_by_cell import each_cell
+from lumped.calibration.cell_by_cell import GridCells, each_cell
 from lumped.calibration.closed_form import NoClosedForm, springs_of_cells
 from lumped.calibration.least_squares import fit_moduli
 from lumped.calibration.report import report
 from lumped.calibration.rim_twist import with_twist
 from lumped.lattice import Grid
 from lumped.sections import CellSection
+from lumped.spring_constants import Springs
 from sheetbench.errors import BadInput
 from sheetbench.numerics.cache import cached
 from sheetbench.scenes import Cells, Material, Sheet
 from sheetbench.scenes.objects.grading import Graded
+
+
+def springs_of_sheets(
+    sheets: Sequence[tuple[Sheet, Material]], grid: Grid, method: str = "consistent"
+) -> list[Springs]:
+    """Return the springs of isotropic sheets of equal cells, each as by `consistent`, found together. Raises
+    NoClosedForm for a sheet without a closed form."""
+    each = [each_cell(sheet, material, grid) for sheet, material in sheets]
+    together = GridCells.stacked(each, several=True)
+    springs = springs_of_cells(together, **special(method))
+    if method != "consistent-interior":
+        springs, _ = with_twist(together, springs, moduli.of_cells(springs, together.sides, grid[2]))
+    return springs.split(len(each))
+
+
+def special(method: str) -> dict[str, bool]:
+    """Return the options of the closed form of a method."""
+    return {"gradients": method == "consistent-membrane", "waves": method == "consistent-oblique"}
 
 
 @cached(  # of cells that are alike
@@ -56,13 +76,12 @@ def consistent(
         cells = Cells.of(sheet, material)
     if isinstance(cells, Cells):
         cells = sections.of_cells(cells, grid)
-    special = {"gradients": method == "consistent-membrane", "waves": method == "consistent-oblique"}
     grid_cells = each_cell(sheet, material, grid, grading, cells)
     even = not grading and cells is None
     try:
         if even and layer_distance is not None:
             raise NoClosedForm
-        springs = springs_of_cells(grid_cells, layer_distance, **special)
+        springs = springs_of_cells(grid_cells, layer_distance, **special(method))
     except NoClosedForm as cell:
         if not even:
             given = (

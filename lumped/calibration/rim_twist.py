@@ -46,21 +46,22 @@ def with_twist(
     covered, twist = grid_cells.covered, twist_of(grid_cells, springs, cell_moduli)
     oblique = None if grid_cells.cells is None else grid_cells.cells.rims
     drawn = oblique is not None or not covered.all()
-    square = moduli.second_moment(grid_cells.grid[2]) * springs.layer_distance**2
+    square = moduli.second_moment(grid_cells.grid[2]) * springs.layer_distance**2 * np.ones(covered.shape)
     near, rims = np.zeros(covered.shape, dtype=bool), np.zeros((*covered.shape, len(RIMS_OWN)))
     notes: list[str] = []
     if oblique is not None and not springs.rubber:
         near[oblique.rows, oblique.columns] = True
         rims, notes = at_oblique_rims(oblique, grid_cells, twist, cell_moduli)
-        rims /= square
-    unequal = grid_cells.cells is not None or not all(map(symmetric, grid_cells.lines))
+        rims /= square[..., None]
+    several, unequal = grid_cells.several, grid_cells.cells is not None
+    unequal |= not all(map(symmetric, grid_cells.lines))
     constants: dict[str, list[np.ndarray]] = defaultdict(list)
     for axis, lines in enumerate(grid_cells.lines):
         # by place along the edges normal to the axis, and across from them
-        of_cells = (covered, grid_cells.share(), near, rims)
-        rows, share, oblique_near, on_rims = (part.swapaxes(0, axis) for part in of_cells)
-        of_axis = Twist._make(part[..., axis].swapaxes(0, axis) for part in twist)
-        corner = ~np.logical_and(*_neighbours(rows, False))
+        of_cells, across = (covered, grid_cells.share(), near, rims, square), axis * (not several)
+        rows, share, oblique_near, on_rims, heights = (part.swapaxes(0, across) for part in of_cells)
+        of_axis = Twist._make(part[..., axis].swapaxes(0, across) for part in twist)
+        corner = ~np.logical_and(*_neighbours(rows, False)) | several
         strips = Strips(of_axis, corner, None if drawn else lines)
         usable = _aligned(share, oblique_near) & ~(oblique_near & corner) if drawn else rows
         (places, first), (_, last) = (np.nonzero(rows & ~other.T) for other in _neighbours(rows.T, False))
@@ -73,14 +74,15 @@ def with_twist(
             edge = strip.copy()
             ends = place[whole_row], cell[whole_row], count[whole_row]
             edge[whole_row], edge_exists = strips.reduction(*ends, far, False)
+            strip, edge = strip / heights[place, cell], edge / heights[place, cell]
             if not (strip_exists and edge_exists):
                 name = "a rim" if drawn else f"{'xy'[axis]}{int(far)}"
                 notes.append(f"no twisting stiffness of the cells along {name} corrects their edge")
             inside, stretch = cell != outer, of_axis.stretch[place, cell]
             if drawn:
                 strain = along_edge(axis, stretch[inside])
-                on_rims[place[inside], cell[inside]] += rank_one(strip[inside] / square, *strain)
-            kinds = ("edge_shear", edge / square), ("strip_shear", strip / square), ("edge_coupling", stretch)
+                on_rims[place[inside], cell[inside]] += rank_one(strip[inside], *strain)
+            kinds = ("edge_shear", edge), ("strip_shear", strip), ("edge_coupling", stretch)
             for name, values in kinds:
                 along = np.zeros(len(rows))
                 along[place[~inside]] = values[~inside]

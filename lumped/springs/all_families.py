@@ -102,12 +102,12 @@ class AllFamilies:
     def survey(self, u: np.ndarray, layers: int) -> Survey:
         """Return the springs' energies and largest strain at u; layers: of the lattice."""
         along, kind, names = self.links.arrays, self.links.kind, self.links.names
-        of_links, stretch = links.energies(u, along, kind, len(names), layers)
+        of_links, stretch, strain = links.survey(u, along, kind, len(names), layers)
         energies = dict(zip(names, of_links.tolist(), strict=True))
         for family in self._central[1:]:
             if len(family):
                 energies[family.name] = float(cells.energies(u, family.arrays).sum())
-        return Survey(energies, self.links.largest_strain(u), stretch)
+        return Survey(energies, strain, stretch)
 
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""

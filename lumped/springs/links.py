@@ -80,21 +80,29 @@ def add_forces(
 
 
 @njit
-def energies(
+def survey(
     u: np.ndarray, links: LinkArrays, kind: np.ndarray, kinds: int, layers: int
-) -> tuple[np.ndarray, float]:
-    """Return the energies [J] of the links by kind, (kinds,), and the part stored by the layers' mean
-    stretch; the links between two columns follow each other, layer by layer."""
-    out, stretch, summed, firm, met = zeros(kinds), 0.0, 0.0, 0.0, 0
+) -> tuple[np.ndarray, float, float]:
+    """Return the energies [J] of the links by kind, (kinds,), the part stored by the layers' mean stretch,
+    and the largest relative change of length as `strains`; the links between two columns follow each other,
+    layer by layer."""
+    out, stretch, summed, firm, met, least, most = zeros(kinds), 0.0, 0.0, 0.0, 0, 0.0, 0.0
     for m in range(len(links.nodes)):
         change, square, length, _ = measure(u, links, m)
-        half, e = 0.5 * links.constants[m], change / (np.sqrt(square) + length)
+        half, e, rest = 0.5 * links.constants[m], change / (np.sqrt(square) + length), length * length
         out[kind[m]] += half * (e * e)
         if links.offset[m, 2] == 0.0:
             summed, firm, met = summed + e, firm + half, met + 1
             if met % layers == 0:
                 stretch, summed, firm = stretch + firm * (summed / layers) ** 2, 0.0, 0.0
-    return out, stretch
+            least, most = min(least, change / rest), max(most, change / rest)
+    return out, stretch, larger(least, most)
+
+
+@inner()
+def larger(least: float, most: float) -> float:
+    """Return the larger relative change of length of the extremes of δg/g₀."""
+    return max(most / (1.0 + np.sqrt(1.0 + most)), -least / (1.0 + np.sqrt(1.0 + least)))
 
 
 @njit
@@ -114,7 +122,7 @@ def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.
                 least, most = min(least, change / rest), max(most, change / rest)
         if which >= 0:
             return out[:k], which
-        out[k] = max(most / (1.0 + np.sqrt(1.0 + most)), -least / (1.0 + np.sqrt(1.0 + least)))
+        out[k] = larger(least, most)
     return out, -1
 
 

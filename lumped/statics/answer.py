@@ -42,8 +42,9 @@ def solution(
     at = u, Drive(state.load_factor)
     reactions |= {item.name: item.exerted(at).sum(axis=0) for item in problem.items}
     contacts = {item.name: item.report(at) for item in problem.contacts}
-    pressure = np.sum([pressure for _, pressure in contacts.values()], axis=0)
-    pressed = {"contact_pressure": pressure} if contacts else {}
+    pressures = [pressure for _, pressure in contacts.values()]
+    pressed = {"contact_pressure": np.sum(pressures, axis=0)} if contacts else {}
+    touching = [item for item in problem.contacts if contacts[item.name][0].points]
     return Solution(
         model="lumped",
         label=f"lumped {calibration.title}" + (", linear" if linear else ""),
@@ -53,7 +54,7 @@ def solution(
         iterations=path.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=partial(_sample, problem.contacts, lattice, u),
+        sample=partial(_sample, touching, lattice, u),
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed)),
@@ -68,8 +69,8 @@ def solution(
     )
 
 
-def _sample(contacts: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
-    return middle(contacts, lattice, u, points)[0]
+def _sample(touching: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
+    return middle(touching, lattice, u, points)[0]
 
 
 def _equilibrium_forces(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:

@@ -3,6 +3,8 @@ u = T q + g(λ), equilibrium is Tᵀ (λ f(u) − f_int(u)) = 0."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from lumped.springs import all_families
@@ -10,29 +12,6 @@ from lumped.springs.all_families import SpringArrays, Stresses
 from sheetbench.numerics.aliasing import empty
 from sheetbench.numerics.options import njit
 from sheetbench.numerics.sparse_products import Rows, product, transposed_product
-
-
-@njit
-def advance(
-    u: np.ndarray,
-    step: np.ndarray,
-    moved: np.ndarray,
-    free: Rows,
-    springs: SpringArrays,
-) -> tuple[np.ndarray, float, np.ndarray, Stresses]:
-    """Return the displacement (n, 3) [m] after a step (m,) [m] of the unknowns and the motion `moved` (n, 3)
-    [m] of the supports, empty without one; the largest component of the change [m]; the internal force (n, 3)
-    [N] after it; and the stresses that the linearisation at u predicts."""
-    move = product(free, step).reshape(u.shape)
-    after, length = empty(u.shape), 0.0
-    for i in range(len(u)):
-        for q in range(3):
-            if len(moved):
-                move[i, q] += moved[i, q]
-            after[i, q] = u[i, q] + move[i, q]
-            length = max(length, abs(move[i, q]))
-    stresses = all_families.extrapolated(u, move, springs)
-    return after, length, all_families.force(after, springs)[1], stresses
 
 
 @njit
@@ -62,3 +41,32 @@ def unbalanced_force(
         total += value * value
     size = np.sqrt(loads) + np.sqrt(supports) + abs(load_factor) * driving
     return out, reduced, np.sqrt(total), size
+
+
+@njit
+def advance(
+    u: np.ndarray,
+    step: np.ndarray,
+    moved: np.ndarray,
+    springs: SpringArrays,
+    load: np.ndarray,
+    load_factor: float,
+    held: np.ndarray,
+    free: Rows,
+    driving: float,
+) -> tuple[np.ndarray, float, Stresses, np.ndarray, Any]:
+    """Return the displacement (n, 3) [m] after a step (m,) [m] of the unknowns and the motion `moved` (n, 3)
+    [m] of the supports, empty without one; the largest component of the change [m]; the stresses that the
+    linearisation at u predicts; the springs' force (n, 3) [N] after it; and `unbalanced_force` of that."""
+    move = product(free, step).reshape(u.shape)
+    after, length = empty(u.shape), 0.0
+    for i in range(len(u)):
+        for q in range(3):
+            if len(moved):
+                move[i, q] += moved[i, q]
+            after[i, q] = u[i, q] + move[i, q]
+            length = max(length, abs(move[i, q]))
+    stresses = all_families.extrapolated(u, move, springs)
+    internal = all_families.force(after, springs)[1]
+    unbalanced = unbalanced_force(internal, load, load_factor, held, free, driving, len(step))
+    return after, length, stresses, internal, unbalanced

@@ -9,7 +9,6 @@ state contains its residual. Displacements and forces are (n, 3) [m], [N].
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from typing import NamedTuple
 
@@ -18,9 +17,10 @@ import scipy.sparse as sp
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.contact import Contact
+from lumped.contact import Contact, middle
 from lumped.items import Deformed, LatticeItem
 from lumped.loads import Loads
+from lumped.mid_surface import MidSurface
 from lumped.springs.all_families import Stresses, Survey
 from lumped.statics.correction import advance, unbalanced_force
 from lumped.statics.faults import inspect
@@ -101,13 +101,14 @@ class Problem(Structure[LatticeState, Residual]):
         self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
         self.contacts = [item for item in items if isinstance(item, Contact)]
         self.symmetric = self.conservative = assembly.conservative and loads.conservative
-        self.prestrained, self._driving = assembly.natural is not None, 0.0
+        self.prestrained, driving = assembly.natural is not None, 0.0
         if self.prestrained:  # often the only load
-            self._driving = float(np.linalg.norm(assembly.force(np.zeros_like(loads.dead))[1]))
+            driving = float(np.linalg.norm(assembly.force(np.zeros_like(loads.dead))[1]))
         coupling, transform = assembly.coupling, constraints.transform
         self.multipliers = 0 if coupling is None else coupling.multipliers
         self.descends = self.symmetric and self.multipliers == 0
         self._free = constraints.transform_arrays
+        self._equilibrium = constraints.held, self._free, driving
         self._others = items or coupling is not None or loads.follow
         if coupling is None:
             self.system = constraints.reduced(assembly.pattern, self.symmetric)
@@ -181,6 +182,12 @@ class Problem(Structure[LatticeState, Residual]):
             survey.energies["contact"] = sum(item.add_force(at, force) for item in self.items)
         return survey
 
+    def middle(self, u: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, MidSurface]:
+        """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch at u, under
+        full load, and the map of their changes. Raises BadInput off the sheet."""
+        touching = [one for one in self.contacts if one.touches((u, Drive(1.0)))]
+        return middle(touching, self.assembly.lattice, u, np.asarray(points, dtype=float))
+
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return the external force λ f(u)."""
         return load_factor * self.loads.force(u)
@@ -199,8 +206,7 @@ class Problem(Structure[LatticeState, Residual]):
 
     def _residual(self, internal: np.ndarray, u: np.ndarray, load_factor: float) -> Residual:
         load, n = self.loads.force(u), self.system.unknowns
-        of = self.constraints.held, self._free, self._driving
-        return Residual(*unbalanced_force(internal, load, load_factor, *of, n))
+        return Residual(*unbalanced_force(internal, load, load_factor, *self._equilibrium, n))
 
     def rest(self) -> LatticeState:
         return LatticeState(np.zeros(self.loads.dead.shape), 0.0)
@@ -261,11 +267,13 @@ class Problem(Structure[LatticeState, Residual]):
     ) -> LatticeState:
         springs, moved = self.assembly.at(load_factor).all_families, forces and forces.moved
         moved = NOTHING if moved is None else moved
-        after, length, internal, stresses = advance(state.u, step, moved, self._free, springs.springs)
+        given = springs.springs, self.loads.last_dead, load_factor, *self._equilibrium
+        after, length, stresses, internal, unbalanced = advance(state.u, step, moved, *given)
+        residual = Residual(*unbalanced)
         if self._others or not springs.conservative:
             internal = springs.with_others(after, internal)
             self._add_others(after, Drive(load_factor), internal)
-        residual = self._residual(internal, after, load_factor)
+            residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, residual, stresses, state.u, length)
 
     def correct(
@@ -278,9 +286,8 @@ class Problem(Structure[LatticeState, Residual]):
             return None
         count()
         blocks = springs.tangent(state.u, state.stresses, extrapolated=state.stresses is not None)
-        factors, definite = banded.factored(blocks, band)
-        step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else rows
-        if definite and math.isfinite(step @ step):
+        factors, definite, step = banded.solved(blocks, band, rows)
+        if definite:
             factor = banded_factor(band, factors, partial(self.system.matrix, blocks))
             return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
         return self.solved(state, forces, load_factor, self.system.factor(blocks, count), rows)

@@ -14,7 +14,7 @@ from sheetbench.scenes.objects.loads import AreaLoad, EdgeLoad, Initial, Load, P
 from sheetbench.scenes.objects.masses import Mass
 from sheetbench.scenes.objects.material import Material, require_no_branches
 from sheetbench.scenes.objects.natural import Natural, Temperature
-from sheetbench.scenes.objects.obstacles import Cylinder, Plane, Sphere
+from sheetbench.scenes.objects.obstacles import Box, Cylinder, Plane, Sphere
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.relaxation import Branches, Relaxation
 from sheetbench.scenes.objects.shapes import Circle, Rectangle, Shape

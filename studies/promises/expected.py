@@ -46,7 +46,7 @@ def solve_again(say: Callable[[str], None]) -> None:
         say(name)
         scene = row["scene"]
         grids = [grid_of(scene.sheet, n) for n in GRIDS]
-        needed_grids = sorted({*grids, *(finer_grid(grid) for grid in grids)})
+        needed_grids = sorted({*grids, *(finer_grid(grid, scene) for grid in grids)})
         shell = _answer(scene, solve(resolve(scene, Elements("shell", ELEMENTS))))
         answers = {"shell": shell, "lattices": [lattice(scene, grid) for grid in needed_grids]}
         rows.append({name: {"group": row["group"], "scene": scene.document(), **answers}})
@@ -73,13 +73,13 @@ def expected_errors() -> Iterator[Promise]:
         by_grid = {tuple(answer["grid"]): answer for answer in row["lattices"]}
         for masses in GRIDS:
             grid = grid_of(row["scene"].sheet, masses)
-            coarse, fine = by_grid[grid], by_grid[finer_grid(grid)]
+            coarse, fine = by_grid[grid], by_grid[finer_grid(grid, row["scene"])]
             if not row["shell"]["status"] == coarse["status"] == "converged":
                 continue
             u, finer, truth = (np.array(answer["probes"]) for answer in (coarse, fine, row["shell"]))
             promised = None
             same_branch = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
-            if same_branch and resolves(row["scene"], finer_grid(grid)):
+            if same_branch and resolves(row["scene"], tuple(fine["grid"])):
                 ratio = prod(n - 1 for n in fine["grid"][:2]) / prod(n - 1 for n in grid[:2])
                 estimate = grid_error(u, finer, ratio, fine["stretch"])
                 promised = None if isinstance(estimate, str) else estimate

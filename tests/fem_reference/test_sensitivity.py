@@ -118,7 +118,7 @@ def at_rest(sheet, q):
 def sampled(shape, points):
     """What an answer has at plan points: of a sheet on a ball, the surface that touches it."""
     found = shape.sheet.sample(shape.sheet.displacement(shape.q), points)
-    if not shape.sheet.touched_without_kinks:
+    if not shape.sheet.touched_without_kinks(shape):
         return found
     return found + tangent_planes.change_at(shape.sheet.plan.mesh, shape.vectors, points)[1]
 

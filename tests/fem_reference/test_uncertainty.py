@@ -60,9 +60,9 @@ def test_the_bar_is_1_35_times_the_largest_error_at_the_order_that_is_banked_on(
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 3.3])
-def test_on_meshes_fitted_to_rims_order_2_at_most_counts_and_neighbours_in_full(order):
-    found, counts = estimate(made(order), SIZES, family=FITTED), min(order, 2.0)
-    assert found.bar.item() == pytest.approx(2.0 * max(errors_at(made(order), counts)).item(), rel=1e-6)
+def test_on_meshes_fitted_to_rims_order_2_at_most_counts(order):
+    found, counts = estimate(made(order), SIZES, largest=FITTED), min(order, 2.0)
+    assert found.bar.item() == pytest.approx(1.35 * max(errors_at(made(order), counts)).item(), rel=1e-6)
 
 
 @pytest.mark.parametrize("odd", [0.6, 1.0, 5.0])
@@ -150,13 +150,14 @@ ROUND = [  # sides, thickness; E, nu, rho; weight; supports of x0, x1, y0, y1; c
     ((0.2923, 0.1704, 0.0027048, 6.77e6, 0.1112, 1175.5), 1.00928, "hhcc", (0.15568, 0.09361, 0.03660)),
     ((0.1805, 0.1295, 0.0020707, 8.29e6, 0.3692, 1201.2), 2.85762, "cchh", (0.10035, 0.07591, 0.02679)),
     ((0.1521, 0.0957, 0.0010980, 1.86e6, 0.4518, 1008.6), 0.157661, "c---", (0.08648, 0.05226, 0.01609)),
+    ((0.1631, 0.1121, 0.0028932, 8.246e6, 0.2093, 1172.9), 0.862744, "c---", (0.07696, 0.06479, 0.02191)),
 ]
 SHARES = np.array([[0.5, 0.85], [0.75, 0.5], [0.75, 0.75]])  # of the sides, where it is looked at
 
 
 @pytest.mark.nightly
 def test_bars_hold_at_round_holes():
-    """45 components of five drawn sheets, truth: 28 elements; by the rule of meshes in rows 28 were held."""
+    """54 components of six drawn sheets, truth: 28 elements; by the rule of meshes in rows 28 were held."""
     held = []
     for data, weight, kinds, (x, y, radius) in ROUND:
         names = {"h": "hinged", "c": "clamped"}

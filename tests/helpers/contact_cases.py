@@ -10,6 +10,7 @@ from scipy.special import beta
 
 import lumped
 from sheetbench.scenes import (
+    Box,
     Clamped,
     Cylinder,
     EdgeLoad,
@@ -34,6 +35,7 @@ OBSTACLES = {
     "plane": Plane(position=(0, 0, -0.01), normal=(0.1, 0.2, 1)),
     "sphere": Sphere(position=(0.5, 0.05, -0.3), radius=0.28),
     "cylinder": Cylinder(position=(0.4, 0, -0.1), axis=(0.1, 1, 0.05), radius=0.09),
+    "box": Box(position=(0.45, 0.04, -0.2), size=(0.3, 0.08, 0.36), radius=0.03),
 }
 QUARTER = (Symmetric(edge="x0"), Symmetric(edge="y0"))
 FALLEN = 1e3 * 0.002 * 0.01 * GRAVITY * DROP  # W H, J

@@ -8,6 +8,7 @@ enum { P = SHEET_LAYERS, N = SHEET_MASSES, ROWS = SHEET_ROWS, LOADED = SHEET_SUP
 #define MASSES(i) for (int i = 0; i < N; i++)
 #define FROM(i, j, e) (real)(SHEET_REST[j][e] - SHEET_REST[i][e] + (s->u[j][e] - s->u[i][e]))
 enum { $sizes };
+static const unsigned char SYMMETRIC[3][3] = {{1, 4, 5}, {4, 2, 6}, {5, 6, 3}}; /* stiffness of strains in a cell's row */
 $tables
 static real root(real x) { return (real)sqrt((double)x); }
 static real dot(const real *x, const real *y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
@@ -78,7 +79,7 @@ static double springs(sheet *s, field velocity, int elastic) {
       sides(c, velocity, va, vb, vq);
       rate[0] = 2 * dot(a, va) * q[7], rate[1] = 2 * dot(b, vb) * q[7], rate[2] = (dot(a, vb) + dot(b, va)) * q[7];
     }
-    EACH(e) x[e] = rate[e] + (elastic ? d[e] : 0);
+    EACH(e) x[e] = elastic ? d[e] : 0;
     if (m >= UPRIGHT) { /* shear of the director b against the chord a */
       const real stiff = elastic ? q[3] * g[0] / (g[0] + d[0]) : 0, work = stiff * d[2] * d[2] / 2;
       on[0] = -work / (g[0] + d[0]), on[2] = stiff * d[2] + q[3] * rate[2], energy += work;
@@ -87,17 +88,17 @@ static double springs(sheet *s, field velocity, int elastic) {
       const real rest = g[0] * g[1] - g[2] * g[2], square = rest + change;
       const real n[3] = {g[1] + d[1], g[0] + d[0], -2 * (g[2] + d[2])};
       if (RUBBER && q[8] + q[9] > 0) {
-        EACH(e) x[e] = rate[e];
+        EACH(e) x[e] = 0;
         if (elastic) energy += rubber(d, g, q + 8, on);
       } else if (elastic) {
         const real now = root(square), more = change / (now + root(rest));
         t = q[0] * more / (2 * now), energy += q[0] * more * more / 2;
-        energy += (q[1] * d[0] * d[0] + q[2] * d[1] * d[1] + q[3] * d[2] * d[2]) / 2;
-        energy += q[4] * d[0] * d[1] + q[5] * d[0] * d[2] + q[6] * d[1] * d[2];
       }
       if (DAMPED) t += q[0] * dot(n, rate) / (4 * square);
-      on[0] += t * n[0] + q[1] * x[0] + q[4] * x[1] + q[5] * x[2], on[1] += t * n[1] + q[4] * x[0] + q[2] * x[1] + q[6] * x[2];
-      on[2] += t * n[2] + q[5] * x[0] + q[6] * x[1] + q[3] * x[2];
+      EACH(e) {
+        on[e] += t * n[e];
+        EACH(l) on[e] += q[SYMMETRIC[e][l]] * (x[l] + rate[l]), energy += q[SYMMETRIC[e][l]] * x[e] * x[l] / 2;
+      }
     }
     EACH(e) {
       const real warp = RUBBER ? 2 * on[3] * dq[e] : 0, fa = on[0] * a[e] + on[2] * b[e] / 2, fb = on[1] * b[e] + on[2] * a[e] / 2;
@@ -114,7 +115,7 @@ static void push(sheet *s, int m, const real on[3]) { /* a point of the sheet, w
 }
 static double contact(sheet *s) { /* adds to f what obstacles press with; returns the energy */
   double energy = 0;
-  for (int m = 0; m < SHEET_TOUCHING; m++) {
+  for (int m = 0; m < SHEET_CONTACTS; m++) {
     const int o = CONTACT[m];
     const real *k = POINT_ROW[POINT_OF[m]], *body = OBSTACLE[o]; /* shares of columns, offset, stiffness, rounded depth */
     real *to = s->touch[m]; /* -d depth/dx, depth, load, load as friction has it */
@@ -133,7 +134,7 @@ static double contact(sheet *s) { /* adds to f what obstacles press with; return
     energy += k[5] * (curved * curved * curved / (6 * k[6]) + sure * (sure + k[6]) / 2);
   }
   for (int m = 0; m < BLOCKS; m++) energy += patch(s, BLOCK[m]);
-  for (int m = 0; m < SHEET_TOUCHING; m++) {
+  for (int m = 0; m < SHEET_CONTACTS; m++) {
     const real load = s->touch[m][4], on[3] = {load * s->touch[m][0], load * s->touch[m][1], load * s->touch[m][2]};
     if (load != 0) push(s, m, on);
   }
@@ -148,7 +149,7 @@ static void resist(sheet *s, field velocity, real sign) { /* adds to f, so many 
     const real size = root(dot(area, area)), speed = size > 0 ? dot(v, area) / size : 0;
     EACH(e) s->f[i][e] += sign * DRAG[i] * (speed < 0 ? -speed : speed) * speed * area[e];
   }
-  for (int m = 0; m < SHEET_TOUCHING; m++) {
+  for (int m = 0; m < SHEET_CONTACTS; m++) {
     const int o = CONTACT[m];
     const real *to = s->touch[m], *k = POINT_ROW[POINT_OF[m]], size = root(dot(to, to)), tau = OBSTACLE[o][7];
     if (to[5] == 0) continue;
@@ -162,16 +163,15 @@ static void resist(sheet *s, field velocity, real sign) { /* adds to f, so many 
   }
 }
 static void forces(sheet *s) { /* of all that acts, inwards, at the velocity w */
-  average(s->u);
-  for (int i = 0; i < ROWS; i++) EACH(e) s->f[i][e] = -WEIGHT[i] * s->input[SHEET_GRAVITY + e];
+  average(s->u), s->fallen = 0;
+  for (int i = 0; i < ROWS; i++) EACH(e) s->f[i][e] = 0;
   for (int b = 0; b < SHEET_BODIES; b++) EACH(e) s->pressed[b][e] = 0;
-  for (int p = 0; p < SHEET_POINTS; p++)
+  for (int p = 0; p <= SHEET_POINTS; p++) /* at points, at last the weight */
     for (int n = NEAR[p]; n < NEAR[p + 1]; n++) EACH(e) s->f[NEAR_AT[n]][e] -= NEAR_SHARE[n] * s->input[3 * p + e];
-  for (int p = 0; p < LOADS; p++) { /* those of a history, first those without one */
-    const real factor = LOAD[p] < 0 ? 1 : (real)curve(LOAD[p], s->time, 0);
+  for (int p = 0; p <= SHEET_LOADS; p++) { /* those of a history, first those without one */
+    const real factor = p ? s->input[SHEET_INPUTS + p - 1] : 1;
     for (int n = DEAD[p]; n < DEAD[p + 1]; n++) s->f[DEAD_AT[n] / 3][DEAD_AT[n] % 3] -= DEAD_SHARE[n] * factor;
-    if (p == 0) s->fallen = 0;
-    if (p == 0) for (int i = 0; i < ROWS; i++) EACH(e) s->fallen += s->f[i][e] * s->u[i][e];
+    for (int i = 0; p == 0 && i < ROWS; i++) EACH(e) s->fallen += s->f[i][e] * s->u[i][e];
     for (int n = PRESSURE[p]; n < PRESSURE[p + 1]; n++) press(s, MIDDLE[PRESSURE_AT[n]], -PRESSURE_SHARE[n] * factor, s->f);
     for (int n = MOMENT[p]; n < MOMENT[p + 1]; n++) { /* of an edge, about the chord of the columns beside */
       const entry *c = EDGE[MOMENT_AT[n]];
@@ -198,33 +198,35 @@ static void accelerate(sheet *s, real half) { /* and v by half a step of it */
   for (int i = N; i < ROWS; i++) EACH(e) s->f[i][e] = 0;
   MASSES(i) EACH(e) s->a[i][e] = -across(s->f, i, e, 0), s->v[i][e] += half * s->a[i][e];
 }
-static void follow(sheet *s) { /* natural states: what springs measure at rest, quadratic in the factors */
-  const real *factor = s->input + SHEET_FACTORS;
-  int new = 0;
-  for (int k = 0; k < SHEET_SOURCES; k++) {
-    if (!s->set[k] && SOURCE[k] >= 0) s->input[SHEET_FACTORS + k] = (real)curve(SOURCE[k], s->time, 0);
-    new |= factor[k] < s->followed[k] || factor[k] > s->followed[k], s->followed[k] = factor[k];
-  }
-  for (int n = 0; new && n < SHEET_GROWN; n++) s->grown[n] = 0;
-  for (int k = 0, m = 0; new && k < SHEET_SOURCES; k++)
+static void follow(sheet *s) { /* histories of factors, and what springs measure at rest, quadratic in natural ones */
+  real *factor = s->input + SHEET_FACTORS;
+  for (int k = 0; k < HISTORYS; k++)
+    if (!s->set[k] && HISTORY[k] >= 0) factor[k] = (real)curve(HISTORY[k], s->time, 0), s->changed = 1;
+  for (int n = 0; s->changed && n < SHEET_GROWN; n++) s->grown[n] = 0;
+  for (int k = 0, m = 0; s->changed && k < SHEET_SOURCES; k++)
     for (int l = -1; l <= k; l++, m++) /* alone, then times another */
       for (int n = 0; n < SHEET_GROWN; n++) s->grown[n] += GROWTH[m][n] * factor[k] * (l < 0 ? 1 : factor[l]);
+  s->changed = 0;
 }
-static void move(sheet *s, real h) { /* supports and obstacles, a step on, with the masses that they hold */
+/* a support or obstacle with the masses that it holds */
+static void move(sheet *s, int body, int e, double place, double rate) {
+  double *at = s->path[body][0], *by = s->path[body][1];
+  MASSES(i) if (OWNER[i][e] == body + 1) s->u[i][e] += place - at[e], s->v[i][e] += rate - by[e];
+  at[e] = place, by[e] = rate;
+}
+static void move_all(sheet *s, real h) { /* a step on, over which masses have kept their velocity */
   for (int b = 0; b < SHEET_BODIES; b++) EACH(e) {
-    if (!s->moved[b] && MOTION[b] < 0) continue;
-    field path = s->path[b], goal = s->goal[b]; /* place and its derivatives */
-    const double place = path[0][e] + h * path[1][e], rate = path[1][e];
-    for (int n = 0; n < 3; n++) path[n][e] = s->moved[b] ? (n < 2 ? goal[n][e] : 0) : curve(MOTION[b] + e, s->time, n);
-    if (s->moved[b]) path[0][e] += (s->time - s->since[b]) * goal[1][e];
-    MASSES(i) if (OWNER[i][e] == b + 1) s->u[i][e] += path[0][e] - place, s->v[i][e] += path[1][e] - rate;
+    s->path[b][0][e] += h * s->path[b][1][e];
+    if (s->moved[b] || MOTION[b] < 0) continue;
+    move(s, b, e, curve(MOTION[b] + e, s->time, 0), curve(MOTION[b] + e, s->time, 1));
+    s->path[b][2][e] = curve(MOTION[b] + e, s->time, 2);
   }
 }
 void sheet_reset(sheet *s) {
   for (unsigned n = 0; n < sizeof *s; n++) ((unsigned char *)s)[n] = 0;
   s->step = SHEET_STEP;
   for (int n = 0; n < SHEET_INPUTS; n++) s->input[n] = INPUT[n];
-  follow(s), move(s, 0);
+  s->changed = 1, follow(s), move_all(s, 0);
   MASSES(i) EACH(e) s->u[i][e] = START[i % STARTS][e], s->w[i][e] = s->v[i][e];
   forces(s), accelerate(s, 0);
 }
@@ -236,47 +238,51 @@ void sheet_step(sheet *s, int count) {
       s->v[i][e] += h / 2 * s->a[i][e], s->u[i][e] += h * s->v[i][e];
     }
     s->time += (double)h;
-    move(s, h), follow(s), forces(s), accelerate(s, h / 2);
-    if (DAMPED + RATED + SHEET_AIR + SHEET_TOUCHING == 0) continue;
+    move_all(s, h), follow(s), forces(s), accelerate(s, h / 2);
+    if (DAMPED + RATED + SHEET_AIR + SHEET_CONTACTS == 0) continue;
     resist(s, s->w, -1), resist(s, s->v, 1);
     for (int i = 0; i < ROWS; i++) EACH(e) s->w[i][e] = s->v[i][e] - s->w[i][e];
     if (DAMPED) springs(s, s->w, 0);
     accelerate(s, 0);
   }
 }
+int sheet_rest(sheet *s, int most) { /* a motion that is stopped whenever it becomes slower */
+  double motion = 0, fastest = 0;
+  for (int n = 1; n <= most; n++) {
+    const double before = motion;
+    sheet_step(s, 1), motion = (double)sheet_energy(s, SHEET_KINETIC);
+    if (motion > before) continue;
+    fastest = before > fastest ? before : fastest;
+    if (before <= (sizeof(real) == 8 ? 1e-20 : 1e-10) * (fastest + s->stored)) return n;
+    MASSES(i) EACH(e) if (!OWNER[i][e]) s->v[i][e] = 0;
+    motion = 0;
+  }
+  return 0;
+}
 void sheet_set(sheet *s, int input, real value) {
   s->input[input] = value;
-  if (input >= SHEET_FACTORS) s->set[input - SHEET_FACTORS] = 1;
+  if (input >= SHEET_FACTORS) s->set[input - SHEET_FACTORS] = s->changed = 1;
 }
 void sheet_set_force(sheet *s, int point, const real force[3]) { EACH(e) s->input[3 * point + e] = force[e]; }
 void sheet_set_curvature(sheet *s, int source, real factor) { sheet_set(s, SHEET_FACTORS + source, factor); }
 void sheet_move_support(sheet *s, int body, const real displacement[3], const real velocity[3]) {
-  EACH(e) s->goal[body][0][e] = displacement[e], s->goal[body][1][e] = velocity[e];
-  s->moved[body] = 1, s->since[body] = s->time + (double)s->step;
-}
-void sheet_probe(const sheet *s, int point, real displacement[3]) {
-  double sum[3] = {0, 0, 0};
-  for (int n = PROBE[point]; n < PROBE[point + 1]; n++) EACH(e) sum[e] += PROBE_SHARE[n] * s->u[PROBE_AT[n]][e];
-  EACH(e) displacement[e] = (real)sum[e];
-}
-void sheet_reaction(sheet *s, int body, real force[3]) {
-  MASSES(i) EACH(e) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->path[OWNER[i][e] - 1][2][e] : 0);
-  EACH(e) {
-    double sum = s->pressed[body][e];
-    for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
-      sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
-    force[e] = (real)sum;
-  }
-}
-real sheet_energy(sheet *s, int kind) {
-  double sum = kind == SHEET_ELASTIC ? s->stored : kind == SHEET_POTENTIAL ? s->fallen : 0;
-  if (kind == SHEET_KINETIC) MASSES(i) EACH(e) sum += s->v[i][e] * across(s->v, i, e, P) / 2;
-  return (real)sum;
+  s->moved[body] = 1;
+  EACH(e) move(s, body, e, displacement[e] - s->step * velocity[e], velocity[e]), s->path[body][2][e] = 0;
 }
 real sheet_get(sheet *s, int output) {
-  real three[3];
-  if (output >= SHEET_ENERGIES) return sheet_energy(s, output - SHEET_ENERGIES);
-  if (output < SHEET_REACTIONS) sheet_probe(s, output / 3, three);
-  else sheet_reaction(s, output / 3 - SHEET_POINTS, three);
-  return three[output % 3];
+  const int e = output % 3, part = output / 3, body = part - SHEET_POINTS;
+  double sum = 0;
+  if (part < SHEET_POINTS) {
+    for (int n = PROBE[part]; n < PROBE[part + 1]; n++) sum += PROBE_SHARE[n] * s->u[PROBE_AT[n]][e];
+  } else if (body < SHEET_BODIES) {
+    MASSES(i) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->path[OWNER[i][e] - 1][2][e] : 0);
+    sum = s->pressed[body][e];
+    for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
+      sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
+  } else if (e == SHEET_KINETIC) MASSES(i) EACH(x) sum += s->v[i][x] * across(s->v, i, x, P) / 2;
+  else sum = e == SHEET_ELASTIC ? s->stored : s->fallen;
+  return (real)sum;
 }
+void sheet_probe(sheet *s, int point, real displacement[3]) { EACH(e) displacement[e] = sheet_get(s, 3 * point + e); }
+void sheet_reaction(sheet *s, int body, real force[3]) { EACH(e) force[e] = sheet_get(s, SHEET_REACTIONS + 3 * body + e); }
+real sheet_energy(sheet *s, int kind) { return sheet_get(s, SHEET_ENERGIES + kind); }

@@ -16,25 +16,25 @@ enum { SHEET_KINETIC, SHEET_ELASTIC, SHEET_POTENTIAL }; /* potential: of gravity
 /* one sheet; several may be in one program; rows of masses, layer by layer in a column, then of columns' middles */
 typedef struct {
   double time;                                /* s */
-  sheet_real step, input[SHEET_INPUTS];       /* s, may be shorter than SHEET_STEP; gravity may be written to */
+  sheet_real step, input[SHEET_INPUTS + SHEET_LOADS]; /* s, may be shorter than SHEET_STEP; gravity may be written to */
   double u[SHEET_ROWS][3], v[SHEET_ROWS][3], a[SHEET_MASSES][3]; /* m, m/s, m/s^2; in double numbers always */
   double f[SHEET_ROWS][3], w[SHEET_ROWS][3], area[SHEET_AIR + 1][3], stored, fallen; /* the rest is the steps' own */
-  sheet_real touch[SHEET_TOUCHING + 1][6], grown[SHEET_GROWN + 1];
-  double path[SHEET_BODIES + 1][3][3], goal[SHEET_BODIES + 1][2][3], since[SHEET_BODIES + 1], pressed[SHEET_BODIES + 1][3];
-  sheet_real followed[SHEET_SOURCES + 1];
-  unsigned char moved[SHEET_BODIES + 1], set[SHEET_SOURCES + 1];
+  sheet_real touch[SHEET_CONTACTS + 1][6], grown[SHEET_GROWN + 1];
+  double path[SHEET_BODIES + 1][3][3], pressed[SHEET_BODIES + 1][3];
+  unsigned char moved[SHEET_BODIES + 1], set[SHEET_SOURCES + SHEET_LOADS + 1], changed;
 } sheet;
 extern const sheet_real SHEET_REST[SHEET_ROWS][3]; /* m: places at rest, columns along x first */
 
 void sheet_reset(sheet *s);           /* to the start at t = 0; before anything else */
 void sheet_step(sheet *s, int count); /* so many steps of s->step */
+int sheet_rest(sheet *s, int most);   /* to the equilibrium under what acts: the steps it took, 0 where `most` are too few */
 void sheet_set(sheet *s, int input, sheet_real value); /* from now on; forces are beside the scene's loads */
 sheet_real sheet_get(sheet *s, int output);
 void sheet_set_force(sheet *s, int point, const sheet_real force[3]);
 void sheet_set_curvature(sheet *s, int source, sheet_real factor); /* times the scene's natural strain and curvature */
 /* where a support or obstacle is at the end of the next step, beside its rest, and its velocity from then on */
 void sheet_move_support(sheet *s, int body, const sheet_real displacement[3], const sheet_real velocity[3]);
-void sheet_probe(const sheet *s, int point, sheet_real displacement[3]);
+void sheet_probe(sheet *s, int point, sheet_real displacement[3]);
 void sheet_reaction(sheet *s, int body, sheet_real force[3]); /* of a support or obstacle on the sheet */
 sheet_real sheet_energy(sheet *s, int kind);                  /* J, of the last step */
 #ifdef __cplusplus

@@ -25,8 +25,8 @@ INSTEAD = {  # by the words that are often written: the feature of sheetbench
     "linear and of the whole [material]: damping_time, damping_rate, loss_factor with a frequency or a "
     "band, or [[material.relaxation]]",
     "contact contacts obstacles floor ground table wall ball rod box self_contact": "a body that the "
-    "sheet touches is an [[obstacle]]: a rigid plane, sphere or cylinder, with friction in motion; the sheet "
-    "does not touch itself",
+    "sheet touches is an [[obstacle]]: a rigid plane, sphere, cylinder or box, with friction in motion; the "
+    "sheet does not touch itself",
     "prestretch pre_stretch prestrain pre_strain prestress pre_stress residual_stress initial_stress "
     "initial_strain": "the stretch of the sheet as it is drawn is [natural] strain or pretension",
     "rest_shape rest_curvature natural_curvature initial_curvature": "a sheet that is bent without "

@@ -1,12 +1,12 @@
 """Distances from the obstacles of a scene, their gradients, ways through them, and gaps of the flat sheet.
 
-The distance φ is, with y the position of a point less the obstacle's, across its axis if it has one, and P
-the projector across it,
+The distance φ is, with y the position of a point less the obstacle's, across its axis if it has one, and of a
+box less the nearest point of its core, and P = ∂y/∂x,
 
-    plane               φ = y·n,      n = ∇φ,     ∇n = 0
-    sphere, cylinder    φ = |y| − R,  n = y/|y|
+    plane                    φ = y·n,      n = ∇φ,     ∇n = 0
+    sphere, cylinder, box    φ = |y| − R,  n = y/|y|
 
-A ball's |y| is ρ = R + o at a point that touches, φ = o. A penalty takes for the depth o − φ
+|y| is ρ = R + o at a point that touches, φ = o. A penalty takes for the depth o − φ
 
     δ = (ρ² − |y|²)/2ρ,   ∂δ/∂x = −y/ρ,   ∂²δ/∂x² = −P/ρ;     on a plane  δ = o − φ,   ∂δ/∂x = −n
 
@@ -27,13 +27,14 @@ from sheetbench.scenes.objects.obstacles import SLIP_SPEED, AnyObstacle, Plane
 from sheetbench.scenes.objects.supports import Clamped, Hinged
 
 INSIDE = 1e-6  # of the thickness: the depth from which on a sheet begins inside an obstacle
+STEPS, ROUNDING = 60, 1e-14  # of Newton's method along a way; of |y|²
 GRID = 65  # points a side of the outline, or along an edge, that a distance is looked for at
 
 
 class Near(NamedTuple):
-    """Points beside an obstacle: y (…, 3) [m], the distance ρ (…) [m] of one that touches it from its place,
-    infinite of a plane, the depth (…) [m], how much less φ is than where they touch it, < 0 of one that is
-    clear, and what of it a penalty takes: δ (…) [m], with −∂δ/∂x = n (…, 3)."""
+    """Points beside an obstacle: places (…, 3) [m] from its middle, ρ (…) [m], infinite of a plane, the depth
+    (…) [m], how much less φ is than where they touch it, < 0 of one that is clear, and what of it a penalty
+    takes: δ (…) [m], with −∂δ/∂x = n (…, 3) and ∂n/∂x = `projector` · diag(curvature (…, 1 or 3))."""
 
     obstacle: AnyObstacle
     across: np.ndarray
@@ -41,15 +42,21 @@ class Near(NamedTuple):
     depth: np.ndarray
     sunk: np.ndarray
     slope: np.ndarray
+    curvature: np.ndarray
 
     @property
     def normal(self) -> np.ndarray:
         """∇φ (…, 3)."""
-        return np.asarray(self.slope / np.linalg.norm(self.slope, axis=-1, keepdims=True))
+        return np.asarray(self.slope / (np.linalg.norm(self.slope, axis=-1, keepdims=True) + 1e-300))
 
     def mean(self, start: Near) -> Near:
-        """Return points whose n̄ = (y₀ + y₁)/2ρ has n̄·Δy = −Δδ exactly since a start, and ∂n̄/∂y₁ = P/2ρ."""
-        return self._replace(slope=0.5 * (start.slope + self.slope), touch=2.0 * self.touch)
+        """Return points whose n̄ = (y₀ + y₁)/2ρ has n̄·Δx = −Δδ exactly since a start, and ∂n̄/∂x₁ = P/2ρ; where
+        the nearest point of a core moves with x, components of n̄ are the less."""
+        core = self.obstacle.core
+        moved = np.clip(self.across, -core, core) - np.clip(start.across, -core, core)
+        share = np.divide(moved, self.across - start.across, out=np.zeros_like(moved), where=moved != 0.0)
+        slope = 0.5 * (start.slope + self.slope) * (1.0 - share)
+        return self._replace(slope=slope, curvature=0.5 * self.curvature)
 
     def resistance(self, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return forces (…, 3) [N] of dashpot and friction on points that a load p (…) [N] presses and that
@@ -69,12 +76,22 @@ class Near(NamedTuple):
         the radius, nor through: 1 for all of them."""
         if isinstance(self.obstacle, Plane):
             return 1.0
-        x, v = start.across, self.across - start.across
-        core = self.touch - 0.5 * self.obstacle.radius
-        a, b, c = (v * v).sum(axis=-1), (x * v).sum(axis=-1), (x * x).sum(axis=-1) - core**2
-        hit = (b * b > a * c) & (b < 0.0) & (c > 0.0)
-        first = (-b[hit] - np.sqrt((b * b - a * c)[hit])) / a[hit]
-        return float(0.99 * first.min(initial=1.0 / 0.99))
+        way, core = self.across - start.across, self.obstacle.core
+        deep, end = 0.5 * self.obstacle.radius, 1.0 / 0.99
+        share = np.where(start.depth < deep, 0.0, end)
+        for _ in range(
+            STEPS
+        ):  # Newton's from outside, that end before the first root of the convex |y|² − c²
+            y = start.across + share[..., None] * way
+            y = y - np.clip(y, -core, core)
+            over, fall = (y * y).sum(axis=-1) - (self.touch - deep) ** 2, -2.0 * (y * way).sum(axis=-1)
+            going = (over > ROUNDING * self.touch**2) & (share < end)
+            if not going.any():
+                break
+            share += np.where(
+                going, np.divide(over, fall, out=np.full_like(over, end), where=fall > 0.0), 0.0
+            )
+        return float(0.99 * share.min(initial=end))
 
 
 def dyad(n: np.ndarray) -> np.ndarray:
@@ -83,7 +100,7 @@ def dyad(n: np.ndarray) -> np.ndarray:
 
 
 def projector(obstacle: AnyObstacle) -> np.ndarray:
-    """Return P (3, 3) across a cylinder's axis or on a plane, the identity of a sphere."""
+    """Return the projector (3, 3) across a cylinder's axis or on a plane, the identity of others."""
     return np.eye(3) - dyad(obstacle.direction)
 
 
@@ -93,11 +110,16 @@ def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[flo
     y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
         normal, depth = np.broadcast_to(obstacle.direction, y.shape), offset - y @ obstacle.direction
-        return Near(obstacle, y, depth + np.inf, depth, depth, normal)
-    y = y @ projector(obstacle)
-    touch, squared = offset + obstacle.radius, (y * y).sum(axis=-1)
-    sunk = 0.5 * (touch - squared / touch)
-    return Near(obstacle, y, touch + 0.0 * squared, touch - np.sqrt(squared), sunk, y / touch[..., None])
+        return Near(obstacle, y, depth + np.inf, depth, depth, normal, 0.0 * y[..., :1])
+    across, core = y @ projector(obstacle), obstacle.core
+    y = across - np.clip(across, -core, core)
+    squared = (y * y).sum(axis=-1)
+    touch = offset + obstacle.radius + 0.0 * squared
+    depth, sunk, curvature = touch - np.sqrt(squared), 0.5 * (touch - squared / touch), 1.0 / touch[..., None]
+    slope = y * curvature
+    if core.any():
+        depth, curvature = depth + (core - abs(across)).min(axis=-1).clip(0.0), curvature * (y != 0.0)
+    return Near(obstacle, across, touch, depth, sunk, slope, curvature)
 
 
 def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
@@ -113,9 +135,10 @@ def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarra
     import shapely
     from scipy.optimize import lsq_linear
 
-    sides, across = scene.sheet.lengths, projector(obstacle)
-    at = across @ obstacle.place(time=0.0)
-    foot = lsq_linear(across[:, :2], at, ([0.0, 0.0], sides)).x  # |y|² is convex in the plan
+    sides, across, wide = scene.sheet.lengths, projector(obstacle), obstacle.core > 0.0
+    core, at = obstacle.core[wide], across @ obstacle.place(time=0.0)
+    ways, bounds = np.hstack([across[:, :2], -np.eye(3)[:, wide]]), ([0.0, 0.0, *-core], [*sides, *core])
+    foot = lsq_linear(ways, at, bounds).x[:2]  # |y|² is convex in the plan and in the core
     plan = shapely.get_coordinates(shapely.segmentize(scene.region, max(sides) / GRID))
     return _gap(scene, obstacle, [*plan, foot] if shapely.intersects_xy(scene.region, *foot) else plan, 0.0)
 
@@ -140,10 +163,12 @@ def conflicts(scene: SceneFields) -> Iterator[object]:
             yield gap < -INSIDE * scene.sheet.thickness and inside
 
 
-def require_no_obstacles(scene: SceneFields, who: str) -> None:
-    """Raise SceneError where there are obstacles."""
-    if scene.obstacles:
-        raise SceneError(f"scene '{scene.name}': obstacle: {who} has no contact; leave [[obstacle]] out")
+def require_no_obstacles(scene: SceneFields, who: str, kinds: Any = object) -> None:
+    """Raise SceneError where there are obstacles of some kinds."""
+    for name, one in scene.named_obstacles().items():
+        if isinstance(one, kinds):
+            why = f"{name}: {who} has no contact with a {one.kind}; leave [[obstacle]] out"
+            raise SceneError(f"scene '{scene.name}': {why}")
 
 
 def require_frictionless(scene: SceneFields) -> None:

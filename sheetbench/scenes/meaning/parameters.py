@@ -24,7 +24,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from functools import cache
-from itertools import product
+from itertools import chain, product
 from math import inf, isfinite, pi
 from typing import Any, NamedTuple
 
@@ -86,6 +86,7 @@ BOUNDS = {  # others are above 0
     **dict.fromkeys(("acceleration", "force", "force_per_length", "force_per_area", "at"), (-inf, inf)),
     **dict.fromkeys(("value", "pretension", "moment_per_length", "displacement"), (-inf, inf)),
 }
+OVER_TIME = re.compile(r"damping_|loss_factor|drag|share_|time_|obstacle\d+\.friction")
 Path = tuple[str | int, ...]  # keys, and numbers in lists
 
 
@@ -118,29 +119,30 @@ def parameter(scene: SceneFields, name: str) -> Parameter:
 
 
 def names_of(scene: SceneFields) -> list[str]:
-    """Return the names of all parameters that the scene has."""
+    """Return the names of all parameters that the scene has and an answer at rest depends on."""
     lists = [getattr(scene, key) for key in LISTS]
     joints = [getattr(one, "segments", 0) for one in scene.actuators]
     most = max(*map(len, lists), len(scene.material.relaxation), *joints, 1)
     ends = [f"{key}_{edge}" for key in ("curvature", "tilt") for edge in EDGES]
+    there = (_numbered(key, most) for key, place in PLACES.items() if getattr(scene, place.split(".")[0]))
     names = []
-    for name in (*_numbered(most), *ends):
+    for name in (*chain.from_iterable(there), *ends):
         with suppress(BadInput, TypeError):
-            if isfinite(parameter(scene, name).value):  # a plane's radius is not
+            if not OVER_TIME.match(name) and isfinite(
+                parameter(scene, name).value
+            ):  # a plane's radius is not
                 names.append(name)
     return names
 
 
 @cache
-def _numbered(most: int) -> tuple[str, ...]:
-    """Return the names that PLACES stands for, with numbers up to `most`."""
-    names, numbers = list[str](), [str(n + 1) for n in range(most)]
-    for pattern in PLACES:
-        parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
-        words = [part.removeprefix("(").removesuffix(")") for part in parts]
-        choices = [numbers if w == r"\d+" else [*w[1:-1]] if w[0] == "[" else w.split("|") for w in words]
-        names += map("".join, product(*choices))
-    return tuple(names)
+def _numbered(pattern: str, most: int) -> tuple[str, ...]:
+    """Return the names that a pattern of PLACES stands for, with numbers up to `most`."""
+    numbers = [str(n + 1) for n in range(most)]
+    parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
+    words = [part.removeprefix("(").removesuffix(")") for part in parts]
+    choices = [numbers if w == r"\d+" else [*w[1:-1]] if w[0] == "[" else w.split("|") for w in words]
+    return tuple(map("".join, product(*choices)))
 
 
 def put(scene: AScene, name: str, value: float, checked: bool = True) -> AScene:

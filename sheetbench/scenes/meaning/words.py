@@ -95,7 +95,8 @@ def _at_rest(scene: SceneFields) -> str:
 def _obstacle(obstacle: AnyObstacle, gap: float) -> str:
     """Return an obstacle's kind, place and distance from the flat sheet, in words."""
     plane, along = isinstance(obstacle, Plane), getattr(obstacle, "normal", getattr(obstacle, "axis", ()))
-    round_ = "" if plane else f" of radius {_mm(obstacle.radius)} mm"
+    wide = f" of {' × '.join(map(_mm, sides))} mm" if (sides := getattr(obstacle, "size", ())) else ""
+    round_ = wide + ("" if plane else f"{', edges' if sides else ''} of radius {_mm(obstacle.radius)} mm")
     turned = f" {'facing' if plane else 'along'} ({', '.join(f'{part:.3g}' for part in along)})" * bool(along)
     more = ", moving" if obstacle.motion is not None else ""
     more += f", friction {obstacle.friction:g} in motion" if obstacle.friction else ""

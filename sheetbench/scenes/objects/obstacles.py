@@ -1,4 +1,4 @@
-"""The kinds of obstacle, rigid bodies that the sheet touches: a plane, a sphere, a cylinder.
+"""The kinds of obstacle, rigid bodies that the sheet touches: a plane, a sphere, a cylinder, a box.
 
 Positions are of the obstacle's own surface: with φ(x) the distance of a point of the mid-surface from it, the
 sheet touches where φ = h/2. A plane that the flat sheet lies on is at z = −h/2.
@@ -21,7 +21,7 @@ TOUCH = 1e-9  # δ₀, of the thickness: how far off a sheet touches, or an obst
 
 class _Obstacle(Frozen):
     position: Annotated[Vector3, Unit("m")]
-    """A point of the plane, the sphere's centre, a point of the cylinder's axis."""
+    """A point of the plane, the sphere's or box's centre, a point of the cylinder's axis."""
     motion: Motion | None = Field(default=None, kw_only=True)
     """How the obstacle moves over time; at rest it stands where its motion ends."""
     friction: NonNegative = Field(default=0.0, kw_only=True)
@@ -36,9 +36,14 @@ class _Obstacle(Frozen):
 
     @property
     def direction(self) -> np.ndarray:
-        """A plane's normal or a cylinder's axis as a unit vector (3,), 0 of a sphere."""
+        """A plane's normal or a cylinder's axis as a unit vector (3,), 0 of a sphere and a box."""
         along = np.array(getattr(self, "normal", getattr(self, "axis", (0.0, 0.0, 0.0))))
         return np.asarray(along / (np.linalg.norm(along) or 1.0))
+
+    @property
+    def core(self) -> np.ndarray:
+        """Half the sides (3,) [m] of what a ball of its radius is swept over: 0 but for a box."""
+        return np.zeros(3)
 
     def place(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
         """Return the obstacle's position (3,) [m] after a share of its way: at a time [s], or at last."""
@@ -78,5 +83,22 @@ class Cylinder(_Obstacle):
     """Radius of the bar."""
 
 
-AnyObstacle = Plane | Sphere | Cylinder
+class Box(_Obstacle):
+    """A box with sides along the axes, its edges and corners rounded."""
+
+    kind: Literal["box"] = Field(default="box", kw_only=True)
+    size: Annotated[tuple[Length, Length, Length], Unit("m")]
+    """Sides along x, y and z."""
+    radius: Length
+    """Radius of the edges, at most half the shortest side."""
+
+    def _faults(self) -> Iterator[object]:
+        yield 2.0 * self.radius > min(self.size) and f"radius: {self.radius:g} is more than half a side"
+
+    @property
+    def core(self) -> np.ndarray:
+        return np.asarray(0.5 * np.array(self.size) - self.radius)
+
+
+AnyObstacle = Plane | Sphere | Cylinder | Box
 Obstacle = Annotated[AnyObstacle, Field(discriminator="kind")]

@@ -28,7 +28,7 @@ ROWS = {
     f"calibrate {TWO} --calibration consistent --k 550": "k|consistent|uniform",
     f"calibrate {TWO} --toml --json": "--toml|--json",
     f"calibrate {TWO} --toml --for newton": "--toml: no effect with --for",
-    f"calibrate {TWO} --toml --for cpp --grid 3": "--toml: no effect with --for",
+    f"calibrate {TWO} --toml --for matlab --grid 3": "--toml: no effect with --for",
     f"calibrate {TWO} --calibration central --for newton": "--calibration: no effect with --for newton",
     f"calibrate {TWO} --grid 3 --for bullet": "bullet|newton, mujoco, pybullet, genesis, sofa",
     f"calibrate {TWO} --grid 3 --for sofa --calibration consistent": "--calibration central",

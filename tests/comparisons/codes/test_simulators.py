@@ -25,7 +25,7 @@ from comparisons.codes.sheet_mesh import sheet_mesh
 from comparisons.scoring.reference import references
 from sheetbench import scenes
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EdgeLoad, Plane, PointLoad, Pressure, Sphere, Symmetric
+from sheetbench.scenes import Box, EdgeLoad, Plane, PointLoad, Pressure, Sphere, Symmetric
 
 SCENE = scenes.load("two-edges-clamped").replace(
     loads=(PointLoad(at=(0.188, 0.188), force=(0.01, 0.0, 0.05)),)
@@ -196,6 +196,11 @@ def test_the_verb_writes_a_scene_and_says_where_its_numbers_are_from(kept):
 def test_what_a_code_does_not_have_is_said():
     curved = setup(scenes.load("curved-edge"), "newton", 4, best=False)
     assert not curved.files() and curved.notes()[0].startswith("No files")
+    box = Box(position=(0.0, 0.0, -1.0), size=(1.0, 1.0, 1.0), radius=0.1)
+    assert (
+        "obstacle: files have no box"
+        in setup(SCENE.replace(obstacles=(box,)), "newton", 4, best=False).notes()[0]
+    )
 
 
 @pytest.mark.usefixtures("coarse_limits")

@@ -53,6 +53,20 @@ def test_a_quadtree_has_each_corner_once():
     assert found.tolist() == [[x, y] for x in range(4) for y in range(2)]
 
 
+def test_a_small_hole_is_divided_in_proportion_to_the_elements():
+    """Meshes of 8, 12 and 16 had the same 16 sides on it, erred alike and agreed: their bars held 93 %."""
+    counts = [
+        len(
+            quadrilaterals(
+                PLATE.difference(disc(0.11, 0.093, 0.02)), NONE, (0.2 / n, 0.2 / n)
+            ).boundary_facets()
+        )
+        for n in (8, 12, 16)
+    ]
+    on_hole = [count - 4 * n for count, n in zip(counts, (8, 12, 16), strict=True)]
+    assert on_hole == [16, 24, 32]
+
+
 @pytest.mark.sweep
 @pytest.mark.parametrize("graded", [False, True])
 @pytest.mark.parametrize("count", [6, 16])

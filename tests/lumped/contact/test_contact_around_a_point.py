@@ -5,11 +5,13 @@ import pytest
 from cases import equilibrium
 from contact_cases import on_lattice, pressed_ball
 
+import fem_reference
 import lumped
 from lumped.contact import middle
 from lumped.patch import integrate
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
+from sheetbench.errors import BadInput
 from sheetbench.scenes import PointLoad
 
 PLACES = np.meshgrid([-1.0, 0.0, 1.0], [-1.0, 0.0, 1.0])
@@ -57,6 +59,21 @@ def test_what_an_answer_has_at_points_is_on_the_surface_that_touches():
     assert np.abs(moved - shift).max() < 1e-15
 
 
+def test_a_lattice_as_a_function_has_that_surface_at_points_and_no_matrix_to_it():
+    at = np.array([[0.0733, 0.0867], [0.08, 0.08], [0.16, 0.03]])
+    scene = pressed_ball((0.0733, 0.0867), 4e-3)
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(7, 8, 2))
+    sheet, answer = lumped.Differentiable(scene, springs), lumped.solve(scene, springs)
+    u, (found, surface) = sheet.solve({}), sheet.surface(at)
+    assert found == pytest.approx(answer.displacement(at), abs=1e-9 * np.abs(found).max())
+    weights = np.random.default_rng(2).normal(size=(3, 3))
+    by = sheet.pullback(surface.shared(weights, len(u)))["cells.young"]
+    expected = answer.sensitivity().at_points(at, weights)["cells.young"]
+    assert by == pytest.approx(expected, abs=1e-6 * np.abs(by).max())
+    with pytest.raises(BadInput, match="curved"):
+        sheet.at(at)
+
+
 @pytest.mark.parametrize(("model", "side"), [("lumped", 9), ("lumped", 10), ("shell", 8)])
 @pytest.mark.parametrize("at", [(0.08, 0.08), (0.0733, 0.0867)])
 def test_sheet_over_a_ball_is_where_the_ball_is(model, side, at):
@@ -78,6 +95,20 @@ def test_contact_under_a_mass_is_the_lattice_under_its_force():
     dead = PointLoad(at=(0.08, 0.08), force=(0.0, 0.0, pressed.reactions["obstacle 1"][2]))
     loaded = on_lattice(scene.replace(obstacles=(), loads=(dead,)), (9, 9, 2))
     assert loaded.displacement(centre) == pytest.approx(pressed.displacement(centre), rel=1e-4, abs=1e-9)
+
+
+@pytest.mark.parametrize("rise", [1.5e-3, 4e-3])
+@pytest.mark.parametrize("model", ["lumped", "shell"])
+def test_modes_do_not_lead_into_the_ball(model, rise):
+    """At the point that touches, to its stiffness; cubics through masses moved 2 to 4 % of a mode into it."""
+    scene, at = pressed_ball((0.0733, 0.0867), rise), np.array([[0.0733, 0.0867]])
+    if model == "lumped":
+        springs = lumped.calibrate(scene.sheet, scene.material, grid=(10, 10, 2))
+        found = lumped.modes(scene, springs, 3, about="deformed")
+    else:
+        found = fem_reference.modes(scene, "shell", elements=8, count=3, about="deformed")
+    most = np.abs(found.shapes).max(axis=(1, 2))
+    assert (np.abs(found.displacement(at)[:, 0, 2]) < 4e-3 * most).all()
 
 
 @pytest.mark.parametrize(("at", "rigid"), [((0.08, 0.08), 7.400e-4), ((0.0733, 0.0867), 7.535e-4)])

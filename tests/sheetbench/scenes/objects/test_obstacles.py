@@ -4,7 +4,7 @@ import pytest
 from contact_cases import THICKNESS, laid_strip
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Cylinder, Motion, Plane, Scene, SceneError, Sphere, load
+from sheetbench.scenes import Box, Cylinder, Motion, Plane, Scene, SceneError, Sphere, load
 from sheetbench.scenes.meaning.distances import farther, nearest
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.meaning.words import in_words
@@ -16,6 +16,11 @@ GAPS = {
     "under": (Sphere(position=(0.4, 0.05, -0.4), radius=0.2), 0.2),
     "across": (Cylinder(position=(0.4, 7.0, -0.2), axis=(0, 2, 0), radius=0.1), 0.1),
     "along": (Cylinder(position=(3.0, 0.4, -0.4), axis=(1, 0, 0), radius=0.1), 0.4),
+    "on a face": (Box(position=(0.4, 0.05, -0.4), size=(0.2, 0.1, 0.4), radius=0.02), 0.2),
+    "on a corner": (
+        Box(position=(1.3, 0.4, -0.4), size=(0.4, 0.4, 0.4), radius=0.1),
+        (0.2**2 + 0.2**2 + 0.3**2) ** 0.5 - 0.1,
+    ),
     "lifted": (
         Plane(position=(0, 0, -0.2), motion=Motion(time=(0, 1), displacement=((0, 0, 0.1), (0, 0, 0.15)))),
         0.1,
@@ -37,8 +42,12 @@ def test_what_no_obstacle_can_be():
         laid_strip(0.1, obstacles=(Plane(position=(0.0, 0.0, -0.0525), motion=press),))
     with pytest.raises(SceneError, match="needs a direction"):
         Plane(position=(0, 0, -1), normal=(0, 0, 0))
-    with pytest.raises(SceneError, match="box"):
-        laid_strip(0.1).replace(obstacles=({"kind": "box", "position": (0, 0, -1)},))
+    with pytest.raises(SceneError, match="cone"):
+        laid_strip(0.1).replace(obstacles=({"kind": "cone", "position": (0, 0, -1)},))
+    with pytest.raises(SceneError, match=r"radius: 0\.06 is more than half a side"):
+        Box(position=(0, 0, -1), size=(1.0, 0.1, 1.0), radius=0.06)
+    with pytest.raises(SceneError, match=r"begins 202\.5 mm inside it"):
+        laid_strip(0.1, obstacles=(Box(position=(0.5, 0.05, 0.1), size=(1, 1, 0.6), radius=0.05),))
 
 
 def test_written_and_read_again(tmp_path):

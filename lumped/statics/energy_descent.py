@@ -5,7 +5,9 @@ true tangent serves if it is positive definite; otherwise the tangent with compr
 stresses set to zero (Teran et al. 2005). Links then add nothing negative, but an area spring's ∇²a is
 indefinite in its plane, and some have negative stiffness (ν < 1/3): the sum is positive while strains are
 small, and a direction that does not descend ends the search. Every accepted step lowers the energy, so the
-end is a local minimum or the step limit. Only for dead loads and central springs: others have no energy.
+end is a local minimum or the step limit. Newton's method finishes; its steps are rounding where their work is
+nothing beside the energy that the descent has released. Only for dead loads and central springs: others have
+no energy.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from sheetbench.numerics.continuation.newton import Start, newton
 from sheetbench.numerics.continuation.path import LoadStepFailed
 from sheetbench.numerics.direct import SOLVED, Factor, SingularMatrixError
 
-STEPS = 300
+STEPS = 600
 DISTURBANCES = (0.1, 1.0, 4.0)  # layer distances; the first that leads away from a saddle is used
 PROJECTED_RUN = 4  # steps with the projected tangent before the true one is tried again
 
@@ -49,14 +51,16 @@ def descend(path: LatticePath, load_factor: float) -> LatticeState:
 
 
 def _minimise(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: float) -> LatticeState:
-    wait, drive = 0, Drive(load_factor)
+    wait, drive, first = 0, Drive(load_factor), problem.potential(u, load_factor)
     for _ in range(STEPS):
         residual = problem.residual(u, load_factor)
         factor, wait = _definite_factor(path, problem, u, load_factor, wait)
         relative = residual.norm / residual.size if residual.size > 0.0 else residual.norm
+        before = problem.potential(u, load_factor)
         if relative < path.limits.refine_below and wait == 0:
+            near = Start(LatticeState(u, load_factor, residual), load_factor, 1.0, abs(first - before))
             try:
-                return newton(path, Start(LatticeState(u, load_factor, residual), load_factor, 1.0, 0.0))[0]
+                return newton(path, near)[0]
             except LoadStepFailed:
                 pass
         gradient = -residual.reduced
@@ -70,7 +74,6 @@ def _minimise(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: f
         share *= min(
             (contact.near(end).share_of_way(contact.near(start)) for contact in problem.contacts), default=1.0
         )
-        before = problem.potential(u, load_factor)
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= before + 1e-4 * share * slope:
                 break

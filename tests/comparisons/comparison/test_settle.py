@@ -5,11 +5,15 @@ import pytest
 from commands import one_line, run
 
 import fem_reference
+import lumped
 from comparisons.comparison.branches import shape
 from comparisons.comparison.comparison import compare
 from comparisons.comparison.settle import CREEPING, LONG, frequency, settled, solved_from_motion
 from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
+from lumped.statics.energy_descent import descend
+from sheetbench.numerics.continuation.path import Path
 from sheetbench.scenes import Scene
 
 PILLOW = Scene(
@@ -37,6 +41,38 @@ def test_an_inflated_pillow_is_at_rest_where_its_motion_ends(masses):
     assert lattice == pytest.approx(shell, rel=0.02) and shell == pytest.approx(44.8e-3, rel=0.04)
     assert [found.branch(one) for one in found.solutions] == ["of motion"] * 2
     assert found.expected is None and found.bar is None
+
+
+CLOTH = Scene(
+    name="cloth",
+    sheet={"length_x": 0.25, "length_y": 0.25, "thickness": 0.3e-3},
+    material={"young": 3.3e6, "poisson": 0.3, "density": 500.0},
+    gravity={"acceleration": (0.0, 0.0, -9.81)},
+    supports=tuple({"kind": "symmetric", "edge": edge} for edge in ("x0", "y0")),
+    obstacles=({"kind": "sphere", "position": (0.0, 0.0, -0.10015), "radius": 0.1},),
+    probes={"corner": (0.25, 0.25)},
+)  # a quarter of a rag of 0.5 m and 0.15 kg/m², bending length 18 mm
+
+
+@pytest.mark.nightly
+def test_a_descent_ends_where_rounding_is_all_that_is_left():
+    """Rounding of the stiff links through the thickness exceeds their estimate in a thin sheet on a ball."""
+    springs = lumped.calibrate(CLOTH.sheet, CLOTH.material, grid=(5, 5))
+    problem = lumped.build_problem(CLOTH, springs)
+    path = Path(problem, problem, problem.rest(), limits=problem.limits)
+    path.limit = 2000
+    state = descend(path, 1.0)
+    residual = problem.residual(state.u, 1.0)
+    assert problem.limits.tolerance < residual.norm / residual.size < 1e-8
+    assert path.factored(path.tangent(state, 1.0)).negative == 0 and path.factorisations < 600
+
+
+@pytest.mark.nightly
+def test_cloth_is_at_rest_on_a_ball_by_statics():
+    lattice = solve(resolve(CLOTH, Lattice(17)))
+    assert lattice.status == "converged" and lattice.balance.holds
+    assert lattice.displacement([[0.25, 0.25]])[0, 2] == pytest.approx(-0.295, rel=0.02)
+    assert lattice.reactions["obstacle 1"][2] == pytest.approx(0.15 * 0.25**2 * 9.81, rel=1e-3)
 
 
 @pytest.mark.nightly

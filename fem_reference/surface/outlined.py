@@ -82,6 +82,9 @@ def quadrilaterals(
     ends = np.concatenate([np.column_stack([ends[:, end], middles]) for end in (0, 1)])
     places = np.concatenate([places[:, 0], places[:, 2]])
     mesh = _smoothed(mesh, np.unique(ends))
+    rim = _keys(mesh.facets[:, mesh.boundary_facets()].T, mesh.nvertices)
+    if not np.isin(rim, _keys(ends, mesh.nvertices)).all():  # a part of the sheet has no triangles
+        raise NoMesh(TOO_CLOSE)
     if graded:
         mesh, ends, places = _layered(mesh, ends, places)
     mesh, places = plan.back(mesh, places)

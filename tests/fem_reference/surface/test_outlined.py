@@ -12,6 +12,7 @@ from fem_reference.surface.location import locate
 from fem_reference.surface.mesh import _through, mesh_of, plan_of
 from fem_reference.surface.mesh_points import SizeField, _quadtree
 from fem_reference.surface.outlined import quadrilaterals
+from sheetbench.errors import NoMesh
 from sheetbench.scenes import load
 
 SEGMENTS = 64  # of a quarter of a circle
@@ -111,6 +112,17 @@ def test_a_polygon_with_its_corners_on_a_circle(corners, within, count):
     assert area.min() > 0.0
     weights = GAUSS_WEIGHTS * area[plan.within(scene.loads[0].where)]
     assert weights.sum() == pytest.approx(scene.loads[0].where.area.area, rel=within)
+
+
+def test_a_sheet_without_elements_between_two_borders_is_refused():
+    """A circle that reaches 0.6 mm beyond an edge: an index was out of bounds, or the part was missing."""
+    circle = {"centre": (0.05751113918296833, 0.03877145273250193), "radius": 0.015973917074423933}
+    clamp = {"kind": "clamped", "where": {"circle": circle}}
+    scene = sheet(0.072887463402407, 0.1636361240755881, 1.38e-3, supports=[clamp])
+    for graded in (True, False):
+        with pytest.raises(NoMesh, match="lie too close to each other"):
+            mesh_of(scene, 2, graded)
+    assert mesh_of(scene, 4, True).nelements > 100
 
 
 def test_away_from_borders_elements_are_squares():

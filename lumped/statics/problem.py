@@ -9,6 +9,7 @@ state contains its residual. Displacements and forces are (n, 3) [m], [N].
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from typing import NamedTuple
 
@@ -286,8 +287,9 @@ class Problem(Structure[LatticeState, Residual]):
             return None
         count()
         blocks = springs.tangent(state.u, state.stresses, extrapolated=state.stresses is not None)
-        factors, definite, step = banded.solved(blocks, band, rows)
-        if definite:
+        factors, definite = banded.factored(blocks, band)
+        step = banded.solve_unrefined(factors, band.width, band.order, rows) if definite else rows
+        if definite and math.isfinite(step @ step):
             factor = banded_factor(band, factors, partial(self.system.matrix, blocks))
             return Correction(factor, step, rows, self.advance(state, forces, load_factor, step))
         return self.solved(state, forces, load_factor, self.system.factor(blocks, count), rows)

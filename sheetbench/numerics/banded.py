@@ -172,14 +172,3 @@ def solve_unrefined(factors: np.ndarray, width: int, order: np.ndarray, b: np.nd
     for j in range(len(order)):
         out[order[j]] = x[j]
     return out
-
-
-@njit
-def solved(blocks: np.ndarray, band: Band, b: np.ndarray) -> tuple[np.ndarray, bool, np.ndarray]:
-    """Return the Cholesky factors of the matrix A of blocks (b, 3, 3), whether it is positive definite with a
-    finite solution, and the solution of A x = b, without refinement."""
-    factors, x = stored(blocks, band), b
-    definite = factor(factors, len(band.order), band.width)
-    if definite:
-        x = solve_unrefined(factors, band.width, band.order, b)
-    return factors, definite and bool(np.isfinite(np.sum(x))), x

@@ -101,9 +101,8 @@ class CellFields:
         if not fields.keys() & {*NUMBERS}:
             return section
 
-        changes = (
-            ratio(fields.get(name, base[name]), base[name]) for name in ("young", "thickness", "density")
-        )
+        scaled = ("young", "thickness", "density")
+        changes = (ratio(fields.get(name, base[name]), base[name]) for name in scaled)
         e, t, rho = (change[..., None, None] for change in changes)
         membrane, bending, shear = section.membrane * e * t, section.bending * e * t**3, section.shear * e * t
         if "poisson" in fields:

@@ -108,9 +108,9 @@ def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -
 
 
 class _Newton(Generic[State, Forces]):
-    """A state on its way to equilibrium, with the lengths and works of its steps. before: imbalance before
-    the last step. factor: the last factors. moved: distance since they were made. blurred: error of their
-    stresses. again: whether the last step reused factors."""
+    """A state on its way to equilibrium, with the lengths and works of its steps. last_imbalance: before the
+    last step. factor: the last factors. distance: moved since they were made. stress_error: of the stresses
+    that they were made with. reused_last: whether the last step reused factors."""
 
     def __init__(self, path: Path[State, Forces], first: Start[State]):
         self.path, self.structure, self.target = path, path.structure, first.target

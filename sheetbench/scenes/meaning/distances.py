@@ -79,18 +79,16 @@ class Near(NamedTuple):
         way, core = self.across - start.across, self.obstacle.core
         deep, end = 0.5 * self.obstacle.radius, 1.0 / 0.99
         share = np.where(start.depth < deep, 0.0, end)
-        for _ in range(
-            STEPS
-        ):  # Newton's from outside, that end before the first root of the convex |y|² − c²
+        # Newton's method from outside ends before the first root of the convex |y|² − c²
+        for _ in range(STEPS):
             y = start.across + share[..., None] * way
             y = y - np.clip(y, -core, core)
             over, fall = (y * y).sum(axis=-1) - (self.touch - deep) ** 2, -2.0 * (y * way).sum(axis=-1)
             going = (over > ROUNDING * self.touch**2) & (share < end)
             if not going.any():
                 break
-            share += np.where(
-                going, np.divide(over, fall, out=np.full_like(over, end), where=fall > 0.0), 0.0
-            )
+            further = np.divide(over, fall, out=np.full_like(over, end), where=fall > 0.0)
+            share += np.where(going, further, 0.0)
         return float(0.99 * share.min(initial=end))
 
 

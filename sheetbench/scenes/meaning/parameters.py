@@ -128,9 +128,8 @@ def names_of(scene: SceneFields) -> list[str]:
     names = []
     for name in (*chain.from_iterable(there), *ends):
         with suppress(BadInput, TypeError):
-            if not OVER_TIME.match(name) and isfinite(
-                parameter(scene, name).value
-            ):  # a plane's radius is not
+            finite = isfinite(parameter(scene, name).value)  # a plane's radius is not
+            if finite and not OVER_TIME.match(name):
                 names.append(name)
     return names
 

@@ -52,11 +52,8 @@ def test_strip_over_an_edge_is_bent_as_over_a_cylinder(model, within):
 @pytest.mark.parametrize("body", [box_below(0.1, (0.0, 0.0), (0.6, 0.4, 0.2), 0.06), OBSTACLES["cylinder"]])
 def test_ways_end_before_they_lead_deeper_than_half_the_radius(body):
     """Against the first of many points of each way that is."""
-    beside, hits, steps = (
-        partial(near, body, offset=np.array(0.0), at=(1.0, None)),
-        0,
-        np.linspace(0, 1, 4001),
-    )
+    beside = partial(near, body, offset=np.array(0.0), at=(1.0, None))
+    hits, steps = 0, np.linspace(0, 1, 4001)
     ends = np.random.default_rng(3).normal(scale=0.4, size=(2, 400, 3)) + body.position
     for first, last in zip(*ends, strict=True):
         deep = beside(first + steps[:, None] * (last - first)).depth > 0.5 * body.radius

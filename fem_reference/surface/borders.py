@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -73,14 +74,17 @@ def borders_of(scene: Scene) -> Borders | None:
 
 
 def without_slivers(parts: Sequence[BaseGeometry], width: float) -> list[BaseGeometry]:
-    """Return a region and lines with common points wherever borders are within a width [m] of each other.
-    Between a circle and a polygon with its corners on the circle, for example, no element is upright."""
+    """Return a region and lines with common points where borders cross or are within a width [m] of each
+    other. Between a circle and a polygon with its corners on the circle, for example, no element is upright.
+    """
     import shapely
 
     def points(of: Sequence[BaseGeometry]) -> BaseGeometry:
         return shapely.multipoints(shapely.get_coordinates(of))
 
-    snapped = list(parts)
+    lines = [part.boundary if part.area else part for part in parts]
+    crossings = [shapely.intersection(*pair) for pair in combinations(lines, 2)]
+    snapped = [shapely.snap(part, points(crossings), width) for part in parts]
     for number in range(1, len(snapped)):
         snapped[number] = shapely.snap(snapped[number], points(snapped[:number]), width)
     return [shapely.snap(part, points(snapped), width) for part in snapped]

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 CORNER = np.pi / 9.0  # least turn of a border at a corner; with less it is a curve
 TURN = np.pi / 4.0  # turn of a curve from one vertex of the triangles to the next
 GROWTH = 0.5  # of sizes, with the distance
+ALONG = 2.0  # largest size beside a border, over its length
 SMALLEST, NARROWEST = 1.0 / 256.0, 1.0 / 32.0  # sizes by turns and by gaps
 GRID, NEAR = 1e-9, 1e-7  # of rounding; distance within which points are on the sheet
 CLEARANCE = 0.6  # distance between borders and inner points, over the local size
@@ -69,9 +70,9 @@ class SizeField(NamedTuple):
 
     @classmethod
     def of(cls, region: BaseGeometry, borders: Sequence[LineString], coarse: float) -> SizeField:
-        """Return the sizes by the turns of borders, and by the gaps across the sheet between borders that do
-        not touch. Finer meshes divide both more finely; coarse: the usual size of elements over the actual
-        one, at most 1."""
+        """Return the sizes by the turns and lengths of borders, and by the gaps across the sheet between
+        borders that do not touch. Finer meshes divide turns and gaps more finely; coarse: the usual size of
+        elements over the actual one, at most 1."""
         import shapely
 
         places, sizes = [], []
@@ -80,7 +81,8 @@ class SizeField(NamedTuple):
             turning, radii = _radii(border)
             along = np.concatenate([spaced, turning])
             points = shapely.line_interpolate_point(border, along)
-            near_sizes = np.minimum(1.0, coarse * TURN * np.append(np.full(len(spaced), np.inf), radii))
+            by_turns = coarse * TURN * np.append(np.full(len(spaced), np.inf), radii)
+            near_sizes = np.minimum(min(1.0, ALONG * border.length), by_turns)
             for other in borders:
                 if not border.touches(other) and other is not border:
                     across = shapely.shortest_line(points, other)

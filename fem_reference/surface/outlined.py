@@ -296,4 +296,7 @@ def _biquadratic(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray, unit: np.
         area = np.linalg.det(jacobians(at[nodes], AT_GAUSS[1]))
         folded = nodes[area.min(axis=1) < LEAST_AREA * area.max(axis=1), 4:8]
         at[folded] = straight[folded]
+    area = np.linalg.det(jacobians(at[nodes], AT_GAUSS[1]))
+    if np.any(area.min(axis=1) * area.max(axis=1) <= 0.0):
+        raise NoMesh(TOO_CLOSE)
     return dataclasses.replace(curved, doflocs=np.ascontiguousarray(at.T * unit[:, None]))

@@ -125,6 +125,23 @@ def test_a_sheet_without_elements_between_two_borders_is_refused():
     assert mesh_of(scene, 4, True).nelements > 100
 
 
+@pytest.mark.parametrize("count", [3, 12])
+@pytest.mark.parametrize(
+    "circles",  # of a hole and a patch [m]; sides of 0.05 to 0.1 mm were left beside crossings
+    [
+        [(0.0589, 0.0502, 0.0198), (0.0416, 0.0521, 0.0138)],
+        [(0.0426, 0.0500, 0.0160), (0.0406, 0.0430, 0.0193)],
+        [(0.0591, 0.0442, 0.0183), (0.0430, 0.0503, 0.0114)],
+    ],
+)
+def test_a_hole_crosses_a_patch(circles, count):
+    """A tenth of such scenes had an inverted element: where borders cross, corners of one were put on the
+    other, and kinks remained, a corner each."""
+    hole, stiff = [{"circle": {"centre": (x, y), "radius": radius}} for x, y, radius in circles]
+    scene = sheet(0.1, 0.1, 0.001, cutouts=[{"shape": hole}], patches=[{"shape": stiff, "young": 2e6}])
+    assert np.linalg.det(jacobians(plan_of(mesh_of(scene, count)).corners, AT_GAUSS[1])).min() > 0.0
+
+
 def test_away_from_borders_elements_are_squares():
     mesh = quadrilaterals(*PLANS["square"], (0.025, 0.025))
     assert mesh.nelements == 64

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from operator import attrgetter
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -29,25 +30,24 @@ if TYPE_CHECKING:
 DIGITS = 1e-5  # of the largest displacement
 
 
-def limit(
-    rows: Iterable[Solved], size: Callable[[Solved], float] = lambda row: row.size
-) -> Uncertainty | None:
+def limit(rows: Iterable[Solved], size: Callable[[Solved], float] | None = None) -> Uncertainty | None:
     """Return limit and error bar of a model's two or three finest answers, None for fewer.
 
-    size: cell size, or step, of a row. The error of quadratic elements in the layer along edges is included
-    at rest and ignored in motion; the observed order of other elements is capped at 2.
+    size: step of a row, the cell size by default. The error of quadratic elements in the layer along edges is
+    included at rest and ignored in motion; the observed order of other elements, and of steps, is at most 2.
     """
     from fem_reference.edge_layer import missed_by
     from fem_reference.uncertainty import FITTED, estimate, largest_order
 
-    usable = sorted((row for row in rows if row.usable), key=size)[:3]
-    sizes = [*map(size, usable)]
+    measure = size or attrgetter("size")
+    usable = sorted((row for row in rows if row.usable), key=measure)[:3]
+    sizes = [*map(measure, usable)]
     if len(set(sizes)) < 2:
         return None
     request, layers = usable[0].request, []
     if request.layered and request.duration is None:
         layers = [missed_by(row.request.scene, row.row["settings"]) for row in usable]
-    largest = largest_order(request.scene) if request.layered else FITTED
+    largest = largest_order(request.scene) if request.layered and size is None else FITTED
     return estimate([row.u for row in usable], sizes, layers, largest)
 
 

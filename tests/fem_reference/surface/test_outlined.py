@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 from cases import sheet
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, KDTree
 from skfem import Basis, ElementQuad2
 
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS, jacobians, shape
@@ -140,6 +140,18 @@ def test_a_hole_crosses_a_patch(circles, count):
     hole, stiff = [{"circle": {"centre": (x, y), "radius": radius}} for x, y, radius in circles]
     scene = sheet(0.1, 0.1, 0.001, cutouts=[{"shape": hole}], patches=[{"shape": stiff, "young": 2e6}])
     assert np.linalg.det(jacobians(plan_of(mesh_of(scene, count)).corners, AT_GAUSS[1])).min() > 0.0
+
+
+def test_a_mirrored_hole_crosses_a_mirrored_patch():
+    """Corners were put on borders by the side they came from: meshes of 1148 and 894 vertices."""
+    vertices = []
+    for mirror in (lambda x: x, lambda x: 0.1 - x):
+        hole = {"circle": {"centre": (mirror(0.0473), 0.0519), "radius": 0.0139}}
+        stiff = {"circle": {"centre": (mirror(0.0525), 0.0531), "radius": 0.0101}}
+        scene = sheet(0.1, 0.09, 0.001, cutouts=[{"shape": hole}], patches=[{"shape": stiff, "young": 2e6}])
+        x, y = mesh_of(scene, 4).p
+        vertices.append(np.column_stack([mirror(x), y]))
+    assert KDTree(vertices[0]).query(vertices[1])[0].max() < 1e-9
 
 
 def test_away_from_borders_elements_are_squares():

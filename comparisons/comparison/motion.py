@@ -1,6 +1,6 @@
 """Motion of a scene by the lattice, a finite-element reference and further models.
 
-The reference is simulated again on elements twice as large, and with steps of about twice the length, for its
+The reference is simulated again on two coarser meshes, and with steps of about twice the length, for its
 error bar (`comparisons.sweep.limits.motion_bar`).
 """
 
@@ -44,10 +44,12 @@ def compare_motion(
 ) -> MotionComparison:
     """Simulate a scene for `duration` [s] from rest with the lattice, a reference and further models.
 
-    uncertainty: simulate the reference twice more for its error bar; every [s]: interval of samples; frames:
-    number of stored displacement fields; store: a folder from which interrupted runs resume. Raises BadInput
-    as `compare` and `simulate`, and for a model without motion of the scene.
+    uncertainty: simulate the reference three times more for its error bar; every [s]: interval of samples;
+    frames: number of stored displacement fields; store: a folder from which interrupted runs resume. Raises
+    BadInput as `compare` and `simulate`, and for a model without motion of the scene.
     """
+    from fem_reference.uncertainty import coarser
+
     scene = scene_of(scene)
     finest = Elements.given(reference, {"elements": elements, "law": law})
     finest = finest.but(count=ELEMENTS) if finest.count is None else finest
@@ -76,11 +78,11 @@ def compare_motion(
     if uncertainty and truth.succeeded:
         error = LONGER * truth.settings["error"]
         longer = run(resolve(scene, finest), f"{doing} in longer steps", interval, error=error)
-        rows, counts = [motion_row(scene, finest, truth)], finest.counts(scene)
-        if min(counts[:2]) > 1:
-            half = finest.but(count=(counts[0] // 2, counts[1] // 2))
-            coarse = run(resolve(scene, half), f"{doing} on larger elements", interval)
-            rows.append(motion_row(scene, half, coarse))
+        rows, (along_x, along_y, *_) = [motion_row(scene, finest, truth)], finest.counts(scene)
+        for count in coarser((along_x, along_y))[1:]:
+            larger = finest.but(count=count)
+            coarse = run(resolve(scene, larger), f"{doing} on larger elements", interval)
+            rows.append(motion_row(scene, larger, coarse))
         bars = motion_bar(rows, motion_row(scene, finest, longer))
     return MotionComparison(scene, {**histories, finest.kind: truth}, bars)
 

@@ -22,7 +22,7 @@ from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.meaning.motion import kinks
 
 DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # limits of a reliable reference's error bar: absolute, of a difference
-DOUBLED = {"mesh": "with elements twice as large", "step": "with steps twice as long"}
+COARSER = {"mesh": "on larger elements", "step": "in longer steps"}
 WHOLE = ("largest", "rms", "peak", "period", "decay")  # keys of `measures.difference`
 OF_A_RUN = ("label", "integrator", "settings", "status", "message", "steps", "setup_seconds", "solve_seconds")
 DIFFERENCES = (
@@ -161,10 +161,10 @@ class MotionComparison(Answer):
 
     def complaints(self) -> list[str]:
         complaints = [f"{name}: {c}" for name, run in self.histories.items() for c in run.complaints()]
-        unknown = [DOUBLED[name] for name, bar in self.uncertainty.items() if bar is None]
+        unknown = [COARSER[name] for name, bar in self.uncertainty.items() if bar is None]
         if unknown:
             complaints.append(
-                f"{self.reference}: its error bar is not known, because its run {' and '.join(unknown)} "
+                f"{self.reference}: its error bar is not known, because a run {' and '.join(unknown)} "
                 "failed; more --elements may help"
             )
         return complaints
@@ -234,7 +234,9 @@ class MotionComparison(Answer):
         bars = {name: bar for name, bar in self.uncertainty.items() if bar is not None}
         if not bars:
             return []
-        changes = " and ".join(f"{number(100 * bar, '.2g')} % {DOUBLED[name]}" for name, bar in bars.items())
+        changes = " and ".join(
+            f"{number(100 * bar, '.2g')} % by runs {COARSER[name]}" for name, bar in bars.items()
+        )
         models = ", ".join(row["of"] for row in self.differences if row["distinguishable"] is False)
-        notes = [f"{self.reference}: its own motion changes by up to {changes}"]
+        notes = [f"{self.reference}: its motion is uncertain by {changes}"]
         return [*notes, f"{models}: within the {self.reference}'s own error."] if models else notes

@@ -34,7 +34,7 @@ def limit(rows: Iterable[Solved], size: Callable[[Solved], float] | None = None)
     """Return limit and error bar of a model's two or three finest answers, None for fewer.
 
     size: step of a row, the cell size by default. The error of quadratic elements in the layer along edges is
-    included at rest and ignored in motion; the observed order of other elements, and of steps, is at most 2.
+    included at rest and ignored in motion; the order of motions, of steps and of other elements is at most 2.
     """
     from fem_reference.edge_layer import missed_by
     from fem_reference.uncertainty import FITTED, estimate, largest_order
@@ -44,10 +44,13 @@ def limit(rows: Iterable[Solved], size: Callable[[Solved], float] | None = None)
     sizes = [*map(measure, usable)]
     if len(set(sizes)) < 2:
         return None
-    request, layers = usable[0].request, []
-    if request.layered and request.duration is None:
-        layers = [missed_by(row.request.scene, row.row["settings"]) for row in usable]
-    largest = largest_order(request.scene) if request.layered and size is None else FITTED
+    request, layers, largest = usable[0].request, [], FITTED
+    if request.layered and size is None:
+        largest = largest_order(request.scene)
+        if request.duration is None:
+            layers = [missed_by(row.request.scene, row.row["settings"]) for row in usable]
+        else:
+            largest = min(largest, FITTED)  # a change of period makes signs of changes alternate
     return estimate([row.u for row in usable], sizes, layers, largest)
 
 

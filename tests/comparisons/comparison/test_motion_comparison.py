@@ -68,7 +68,7 @@ def test_the_reference_has_a_bar_by_mesh_and_by_step():
     assert both.lattice is both["lumped"] is not both["shell"]
     sentence, *notes = both.report().notes
     assert re.match(r"The lattice is up to [\d.]+ % off the shell in motion, and the shell within", sentence)
-    assert "% with elements twice as large" in notes[0] and "% with steps twice as long" in notes[0]
+    assert "% by runs on larger elements" in notes[0] and "% by runs in longer steps" in notes[0]
 
     def barred(mesh, step):
         return replace(both, uncertainty={"mesh": mesh, "step": step})
@@ -87,8 +87,19 @@ def test_the_reference_has_a_bar_by_mesh_and_by_step():
     assert near.doubt and near.differences[0]["distinguishable"]
     assert unknown.bar is None and unknown.differences[0]["distinguishable"] is None and not unknown.doubt
     (said,) = unknown.complaints()
-    assert said.startswith("shell: its error bar is not known") and "elements twice as large" in said
+    assert said.startswith("shell: its error bar is not known") and "a run on larger elements failed" in said
     assert not good.complaints() and not replace(both, uncertainty={}).complaints()
+
+
+@pytest.mark.nightly
+def test_the_bar_of_a_motion_holds_and_is_not_wide():
+    """It was the whole change on elements twice as large, five times the error."""
+    coarse, fine = (sb.compare("two-edges-settling", duration=0.2, grid=5, elements=n) for n in (8, 12))
+    moved = [np.stack([*both["shell"].probes.values()]) for both in (coarse, fine)]
+    times = [both["shell"].time for both in (coarse, fine)]
+    assert np.array_equal(*times)
+    off = np.abs(moved[0] - moved[1]).max() / np.abs(moved[1]).max()
+    assert off < coarse.uncertainty["mesh"] < 3.0 * off
 
 
 def test_the_command_prints_and_writes_a_motion(kept):

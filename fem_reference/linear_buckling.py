@@ -3,8 +3,6 @@
 The plate's strains are linear, so that its stiffness does not depend on the load.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem_reference.discrete.static import Static

@@ -38,8 +38,6 @@ Sources: Roache, J. Fluids Eng. 116 (1994) 405–413; Celik et al., J. Fluids En
 ASME V&V 20-2009; Eça & Hoekstra, J. Comput. Phys. 262 (2014) 104–130 (all pairs). Lengths in metres.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise

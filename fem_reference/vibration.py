@@ -20,8 +20,6 @@ Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's
 payloads, on the mid-surface and the director (`surface.carried`). SI units.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -5,8 +5,6 @@ and resists the rate of the spring's measure. Loads and supports have their valu
 load.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 

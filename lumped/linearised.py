@@ -21,8 +21,6 @@ Source: e.g. Craig and Kurdila, Fundamentals of Structural Dynamics, 2006, on mo
 correction.
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property

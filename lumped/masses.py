@@ -44,8 +44,6 @@ Source: Gregory's and the corrected trapezoidal rule: Hildebrand, Introduction t
 the form for two motions derived for this project (docs/theory.md).
 """
 
-from __future__ import annotations
-
 from typing import Literal
 
 import numpy as np

@@ -20,8 +20,6 @@ one-point sheared lattice exact for cubic deflections; of unlike layers D − B 
 Stiffness per length: A, S [N/m], B [N], D [N·m].
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Any

@@ -4,8 +4,6 @@ K is the tangent in that state, M the mass matrix (`lumped.masses`). A lattice w
 motions free has zero frequencies: they are computed with a small shift, counted, and left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial

@@ -5,8 +5,6 @@ Only a regular file is replaced: links, devices, pipes and folders are refused. 
 writer is removed by the next writer of that name.
 """
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os

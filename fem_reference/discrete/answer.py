@@ -6,8 +6,6 @@ solver has brought below its tolerance or to its rounding error, and the roundin
 the scene's own (see `surface.balance`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple, cast

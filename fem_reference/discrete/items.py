@@ -4,8 +4,6 @@ An item reads a `SheetShape` and acts on all coordinates or, like the loads of `
 and director at the nodes of the plan's elements. No other class depends on an item's kind.
 """
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np

@@ -7,8 +7,6 @@ function of r, smooth between the real parts of the roots of three polynomials: 
 (3t − t³) removes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 LINE = np.array(

@@ -1,7 +1,5 @@
 """Discrete sheet in a shape: the quantities that forces, tangent and loads share, each formed once."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Any
 

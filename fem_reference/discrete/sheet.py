@@ -13,8 +13,6 @@ Their tangent neglects the change of B with the shape, which is of the order of 
 (`discrete.elements`) and rods (`discrete.rods`) exert the internal forces, `items` the external ones.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property

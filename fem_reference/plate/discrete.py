@@ -16,8 +16,6 @@ edges, and 0.04 % with all edges clamped: so it is graded where an edge has no t
 Hughes, The Finite Element Method (2000), ch. 5.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cached_property
 from typing import ClassVar

@@ -14,8 +14,6 @@ and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sph
 is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², with ∫ρz dz u̇·ḋ added for layers of different density.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from copy import copy
 from functools import cached_property, partial

@@ -24,8 +24,6 @@ Bᵀ D B + Σ s_k H_k. Strains are formed from the displacement, e = (Q₀ + ½ 
 digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mode.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Self

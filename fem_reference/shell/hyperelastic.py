@@ -11,8 +11,6 @@ director inclined by φ, stores ½ κ G h t² tan² φ (`slant`). St Venant–Ki
 stresses of `Element`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any, Self
 

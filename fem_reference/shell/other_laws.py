@@ -13,8 +13,6 @@ strain counts by its effect on the displacement at the probes: a peak of stretch
 stretch that carries the sheet counts fully, and near a fold, where K is soft, a small strain counts much.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem_reference.discrete.static import Static, StaticState

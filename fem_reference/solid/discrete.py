@@ -16,8 +16,6 @@ on D a traction linear in ζ. The power of pressure and moment is the shell's to
 Rods along edges (see `rods`) are further elements with directors of their own.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import ClassVar
 

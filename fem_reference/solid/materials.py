@@ -17,8 +17,6 @@ small-strain limit.
 Source: Bonet & Wood, Nonlinear Continuum Mechanics (2008), ch. 6. [Pa]
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -9,8 +9,6 @@ N_l(ζ), and two averages of a column stand for the sheet as a surface:
 Coordinates in metres.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

@@ -9,8 +9,6 @@ free only to change its thickness along d: with w = x_l − φ of every level l,
 vanish, as firmly as the rod's own d · m. All strains stay quadratic forms of the unknowns. SI units.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -14,8 +14,6 @@ with whose nodal forces the model has been solved. All integrands but t̂ are of
 integrated exactly; t̂ is taken at the points where `loads` applies the moment.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

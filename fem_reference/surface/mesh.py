@@ -5,8 +5,6 @@ flat quadrilateral mesh as well. Biquadratic nodes lie at corners, mid-sides and
 order of scikit-fem's `ElementQuad2`. Coordinates in metres.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 

@@ -20,8 +20,6 @@ which is 5/6 h G of a single ply.
 Sources: Jones, Mechanics of Composite Materials (1999), 2.6 and 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

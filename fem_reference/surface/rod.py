@@ -23,8 +23,6 @@ Gauss points (d · m at the nodes), where neither inextensibility nor the absenc
 Source: Antman, Nonlinear Problems of Elasticity (2005), ch. 8 (the special Cosserat rod).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple

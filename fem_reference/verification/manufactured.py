@@ -19,8 +19,6 @@ Near ν = ½ the field keeps the volume (k_ii = 0), as required of a nearly inco
 Biquadratic and triquadratic fields: order 3. Source: Chinosi & Lovadina, Comput. Mech. 16 (1995) 36–44.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np

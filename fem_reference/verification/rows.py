@@ -8,8 +8,6 @@ is 0, and None where neither has a meaning (orders, residuals, manufactured erro
 difference itself is held to the tolerance.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any

@@ -8,8 +8,6 @@ The chain's forces derive from a Lagrangian: multiplier rows enter like any othe
 residual as their force.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

@@ -17,8 +17,6 @@ half length, the bending and the twist of its end segment, which may turn about 
 the curvature of the next joint. Two chains that share a corner have its point and director in common.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

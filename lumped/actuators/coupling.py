@@ -9,8 +9,6 @@ support moves over time: with an end that moves so the integrators do not keep t
 and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one actuator model.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -9,8 +9,6 @@ an error of the second order in their length: a strip with six undivided segment
 than their chords by 1 + φ²/24 and a sheet resists the stretch, and loads on joints are a trapezoidal rule.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.actuators.frames import Frames

@@ -22,8 +22,6 @@ but of unit length, and for one of the two chains a multiple of the other's (`lu
 Source: Betsch and Steinmann (2001), García de Jalón's natural coordinates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from itertools import combinations_with_replacement, pairwise
 from typing import NamedTuple

@@ -18,8 +18,6 @@ The method `cauchy` has 1, 1/3, 1 for all ν: the isotropic central-force lattic
 for which it is meant; its lz makes A66 a third of A, and A11 is matched but for δ.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

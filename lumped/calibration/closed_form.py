@@ -54,8 +54,6 @@ square cells is too small by (q l)² sin² 2θ/48 times
 which is 3ν − 1 + 2 S*/κGh for a third and vanishes (`waves`) for a d from 0.27 to 0.54, ν from 0 to ½.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ and along free, hinged and held edges the twist of a plate (`lumped.calibration.
 Every cell of a graded grid has its closed form (`lumped.calibration.cell_by_cell`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

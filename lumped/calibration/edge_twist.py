@@ -30,8 +30,6 @@ quadratic in ψ_1 − ψ_0 alone, so f follows from one solution for the rest. D
 torsion constant is Saint-Venant's.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -7,8 +7,6 @@ possible. Residuals are relative to the sheet's moduli (off-diagonal terms to D1
 weigh more than stretching, since a soft sheet bends first.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

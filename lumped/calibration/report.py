@@ -1,8 +1,6 @@
 """Report of the moduli of the sheet and of a lattice's cells, with notes on moduli that the lattice
 misses."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

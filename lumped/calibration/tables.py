@@ -1,7 +1,5 @@
 """Tables of spring constants and moduli from a calibration's document."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -15,8 +15,6 @@ Constructions without a layer distance (van-gelder, lloyd) have layers at Â± h/â
 stiffness of their in-plane stiffness, and cross-layer links with the shear stiffness S* of `lumped.moduli`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

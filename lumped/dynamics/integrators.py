@@ -1,7 +1,5 @@
 """The integrators by name, with their declared order of accuracy."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from lumped.dynamics.explicit.step_limit import step_limit

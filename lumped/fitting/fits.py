@@ -12,8 +12,6 @@ is changed: with tributary masses the fit made cross links fourteen times too st
 in statics.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache

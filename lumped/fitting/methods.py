@@ -1,7 +1,5 @@
 """All calibration methods by name, including fits to data, and the function `calibrate` that calls them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Any

@@ -8,8 +8,6 @@ depend on the shape: they are computed on the deformed sheet, for a linear model
 is compared with the model's tolerance and rounding.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

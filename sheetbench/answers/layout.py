@@ -4,8 +4,6 @@ Headings and prose are broken over lines at spaces. A table that is still too wi
 under the other, each with the columns that name the rows first. Only a word longer than the width is broken.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from io import StringIO
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Natural modes of a model, its frequencies as an answer, and its buckling modes."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -17,8 +17,6 @@ limit is exact. For other damping every x up to (ω_max h)² may occur with ever
 smallest x of the boundary counts, which is 3 from z = 1 on.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

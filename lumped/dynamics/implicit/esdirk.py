@@ -14,8 +14,6 @@ something changes its course: a load's history, a support's motion. No chains: t
 the order.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -9,8 +9,6 @@ which lies in equilibrium along stiff directions and on the polynomial along sof
 alone would have too much energy. Energies are polynomials through the stages' powers (`tableau.CUMULATIVE`).
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 
 import numpy as np

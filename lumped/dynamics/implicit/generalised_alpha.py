@@ -3,8 +3,6 @@
 What supports prescribe is taken as it is prescribed: accelerations are those beside it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.dynamics.implicit.newton import Newton, StepEquation

@@ -7,8 +7,6 @@
 except in the rows of multipliers, by compiled code where that exists.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 

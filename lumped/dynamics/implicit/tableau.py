@@ -5,8 +5,6 @@ Source: Kennedy and Carpenter (2019), Applied Numerical Mathematics 146, 221–2
 (Reynolds et al. 2023) has them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 GAMMA = 23 / 125  # on the diagonal of every stage but the first

@@ -6,8 +6,6 @@ rest; with a curved support or a tilted clamp it starts in the equilibrium under
 distance.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """Docstrings of scene objects: numpydoc's section of parameters, made of the sentence below each key."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from inspect import cleandoc, signature
 from textwrap import indent, wrap

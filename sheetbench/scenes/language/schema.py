@@ -5,8 +5,6 @@ has two keywords more than the standard's: `unit`, its SI unit, and `hint`, a va
 beyond its bounds. Null does not occur: TOML has none.
 """
 
-from __future__ import annotations
-
 import ast
 import inspect
 from copy import deepcopy

@@ -17,8 +17,6 @@ percent. A scene with a chain held at two places is refused. A chain is held alo
   across this one by a base elsewhere: `plane = "normal"`, and not free.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, pairwise, product
 

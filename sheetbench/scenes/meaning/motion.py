@@ -5,8 +5,6 @@ shaped by bent and tilted supports. It starts with `shape = "static"` in the equ
 t = 0, and the loads with `hold = true` are let go at that time.
 """
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted

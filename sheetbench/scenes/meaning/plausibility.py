@@ -6,8 +6,6 @@ quarter of the shorter side, a gravity other than the Earth's, and a distance of
 the thickness; then a weight or loads that would tear the sheet, and a sheet that nothing moves.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from math import hypot
 from warnings import warn

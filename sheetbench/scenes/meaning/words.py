@@ -1,7 +1,5 @@
 """A scene in words, for its author to check: the place, size and direction of every part."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from math import degrees, hypot
 from typing import Any

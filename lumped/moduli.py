@@ -71,9 +71,8 @@ class Moduli:
         a, d, s = self.membrane, self.bending, self.shear
         forms = {"D": d, "A": a} | ({"B": self.mixed} if mixed else {})
         places = {"11": (0, 0), "12": (0, 1), "66": (2, 2)}
-        names = {
-            f"{kind}{ij}": form[..., i, j] for kind, form in forms.items() for ij, (i, j) in places.items()
-        }
+        each = [(kind, form, *place) for kind, form in forms.items() for place in places.items()]
+        names = {f"{kind}{ij}": form[..., i, j] for kind, form, ij, (i, j) in each}
         if oblique:
             names |= {f"{kind}{n + 1}6": form[..., n, 2] for kind, form in forms.items() for n in range(2)}
         if square:

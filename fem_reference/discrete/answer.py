@@ -50,8 +50,8 @@ class Traced(NamedTuple):
 
 def inspected(path: Path[StaticState, Forces]) -> Fault | None:
     """Return the fault that rejects a step of a path, if there is one."""
-    fault: Fault | None = (shape := shape_of(path)).sheet.fault(shape)
-    return fault
+    shape = shape_of(path)
+    return shape.sheet.fault(shape)
 
 
 def traced(

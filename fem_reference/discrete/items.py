@@ -113,9 +113,8 @@ class Drag(SheetItem):
         share = -2.0 * self._coefficient * GAUSS_WEIGHTS * np.abs(speed) / size
         value = AT_GAUSS[0]
         out = np.zeros((len(area), 18, 3, 18, 3))
-        out[:, :9, :, :9] = np.einsum(
-            "eg,gi,egc,gj,egd->eicjd", share, value, area, value, area, optimize=True
-        )
+        sides = value, area, value, area
+        out[:, :9, :, :9] = np.einsum("eg,gi,egc,gj,egd->eicjd", share, *sides, optimize=True)
         return np.arange(len(out)), out
 
     def exchanged(self, shape: SheetShape) -> tuple[float, float]:

@@ -48,13 +48,7 @@ class DiscretePlate(DiscreteShell):
     element: PlateElements
     moved, centripetal, inside_out = Discrete.moved, Discrete.centripetal, Discrete.inside_out
 
-    def __init__(
-        self,
-        mesh: MeshQuad,
-        scene: Scene,
-        section: Section | None = None,
-        moving: bool = False,
-    ):
+    def __init__(self, mesh: MeshQuad, scene: Scene, section: Section | None = None, moving: bool = False):
         super().__init__(mesh, scene, section, moving=moving)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:

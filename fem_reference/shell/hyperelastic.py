@@ -100,9 +100,8 @@ class HyperelasticElement(Element):
         """Return the energy [J] of strains e (m, 54): of stretch, of bending (the rest), of shear."""
         stretch, curvature = self._strains(strain)
         bent = self.law.thickness(self.material, stretch).value[..., None] * curvature
-        total, membrane = (
-            float(np.sum(self._volumes * self._response(stretch, part).value)) for part in (bent, 0.0 * bent)
-        )
+        values = (self._response(stretch, part).value for part in (bent, 0.0 * bent))
+        total, membrane = (float(np.sum(self._volumes * value)) for value in values)
         shear = self._shear * np.sum(self.areas * self._slant(stretch, strain).value)
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
 

@@ -223,9 +223,8 @@ class DiscreteSolid(DiscreteElements):
         """Return the largest stretching √(1 + 2 E) − 1 along elements' sides, E the mean Green strain."""
         places = (self.on_surface(q)[:, :9] for q in (np.zeros_like(shape.q), shape.q))
         rest, current = (np.sum(np.einsum("agi,eic->aegc", AT_GAUSS[1], at) ** 2, axis=3) for at in places)
-        mean = (
-            (current / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()
-        )  # 2 E, of both sides of every element
+        # 2 E, of both sides of every element
+        mean = (current / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()
         return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + mean, 0.0)) - 1.0)))
 
     def middles(self, displacement: np.ndarray) -> np.ndarray:

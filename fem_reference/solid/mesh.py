@@ -145,9 +145,8 @@ def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Cons
         return constants
     heights = (np.arange(layers) + 0.5) / layers - 0.5
     ply_at = [next(ply for ply in constants.plies if ply.low <= at <= ply.high) for at in heights]
-    values: list[Any] = [
-        np.repeat(column, len(middles) // layers)[:, None] for column in zip(*ply_at, strict=True)
-    ]
+    each = len(middles) // layers
+    values: list[Any] = [np.repeat(column, each)[:, None] for column in zip(*ply_at, strict=True)]
     ply = Ply(*values)
     return constants.replace(plies=(ply._replace(low=-0.5, high=0.5),), density=ply.density)
 

@@ -98,9 +98,8 @@ def curve(
             authority = source if isinstance(source, str) else source[load]
             for name, expected, computed in zip(names, values, answers[load], strict=True):
                 scale = size if abs(expected) < 1e-9 * size else None
-                yield relatively(
-                    name.format(load), mesh, expected, authority, computed, tolerance, scale=scale
-                )
+                cells = name.format(load), mesh, expected, authority, computed, tolerance
+                yield relatively(*cells, scale=scale)
         load = max(published) if half_at is None else half_at
         yield mesh_change(mesh, answer(model, load, elements // 2), answers[load], tolerance)
 

@@ -191,8 +191,7 @@ class Coupling:
 
     def on_rows(self, body: BoundChain, exerted: np.ndarray) -> np.ndarray:
         """Return the force (rows, 3) [N] that holds a body's rows and the masses bound to them."""
-        bound: np.ndarray = exerted[body.place] + body.binding.T @ exerted[body.masses]
-        return bound
+        return exerted[body.place] + body.binding.T @ exerted[body.masses]
 
     def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin of the forces that hold the actuators, corners of

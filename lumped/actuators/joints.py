@@ -64,5 +64,4 @@ def average_gradient(
     before, after = (derivatives(at, stiffness, rest)[0] for at in (start, end))
     stored = after - before
     miss = np.where(moving, stored - (middle * change).sum(axis=1), 0.0)
-    corrected: np.ndarray = middle + (miss / np.where(moving, size, 1.0))[:, None] * change
-    return corrected
+    return middle + (miss / np.where(moving, size, 1.0))[:, None] * change

@@ -86,9 +86,7 @@ def each_cell(
     widths = [[across.mean] if even else across.widths for across in lines]
     if section is None:
         plain = CellSection.of(Constants.of(sheet, material))
-        section = plain.map(
-            lambda part: part[None, None] if even else np.broadcast_to(part, (*shape, *part.shape))
-        )
+        section = plain.map(lambda part: np.broadcast_to(part, (*shape, *part.shape)))
     sides = np.stack(np.meshgrid(*widths), axis=-1)
     if cells is not None and cells.growth is not None:
         sides = sides * cells.growth

@@ -38,8 +38,7 @@ def coefficients(poisson: float) -> np.ndarray:
     from scipy.interpolate import make_interp_spline
 
     at, *columns = np.array(ROWS).T
-    values: np.ndarray = make_interp_spline(at, np.transpose(columns), k=1)(np.clip(poisson, at[0], at[-1]))
-    return values
+    return make_interp_spline(at, np.transpose(columns), k=1)(np.clip(poisson, at[0], at[-1]))
 
 
 def central(grid_cells: GridCells) -> tuple[Springs, list[str]]:

@@ -30,9 +30,8 @@ def report(
     cell without positive energy.
     """
     (sides, section), sheet = grid_cells.present, grid_cells.target
-    cell_moduli = (
-        moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2]) if cell_moduli is None else cell_moduli
-    )
+    if cell_moduli is None:
+        cell_moduli = moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2])
     covered = np.broadcast_to(grid_cells.covered, cell_moduli.shear.shape[:2])
     got = moduli.Moduli(*(part[covered] for part in vars(cell_moduli).values()))
     rigidity, rigidity_y = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
@@ -72,9 +71,8 @@ def report(
     if negative:  # ν < 1/3
         notes.append(f"{constants}: negative area springs are admissible here, the cell's energy is positive")
     settings: dict[str, Any] = {"grading": grid_cells.grading, "cells": grid_cells.cells}
-    return Calibration(
-        method, grid_cells.grid, springs.table(), tuple(rows.values()), (*notes, *more), **settings
-    )
+    reported, remarks = tuple(rows.values()), (*notes, *more)
+    return Calibration(method, grid_cells.grid, springs.table(), reported, remarks, **settings)
 
 
 def _reference(name: str) -> str:

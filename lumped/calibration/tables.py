@@ -60,13 +60,8 @@ def moduli(calibration: dict[str, Any]) -> Table:
         "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh on purpose: cells of length l "
         "are too stiff in shear by l²/12D11"
     )
-    return Table(
-        "Moduli of the sheet and of the lattice",
-        columns,
-        tuple(rows),
-        "moduli",
-        text=note + _edges(calibration),
-    )
+    caption, note = "Moduli of the sheet and of the lattice", note + _edges(calibration)
+    return Table(caption, columns, tuple(rows), "moduli", text=note)
 
 
 def _edges(calibration: dict[str, Any]) -> str:

@@ -267,8 +267,7 @@ class System:
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Return the force on the free unknowns that have mass."""
-        reduced: np.ndarray = self.moving_part.T @ force.ravel()
-        return reduced
+        return self.moving_part.T @ force.ravel()
 
     def expand(self, unknowns: np.ndarray) -> np.ndarray:
         """Return the displacement (size, 3) of the free unknowns that have mass; multiplier rows are zero."""

@@ -172,9 +172,8 @@ class Newton:
 
     def near(self, mass_coefficient: float) -> bool:
         """Return whether the compiled iteration's factors can be reused for an equation with this c₂."""
-        return (
-            self._factored is not None and abs(mass_coefficient / self._factored - 1.0) < REUSE_FACTORS_WITHIN
-        )
+        taken = self._factored
+        return taken is not None and abs(mass_coefficient / taken - 1.0) < REUSE_FACTORS_WITHIN
 
     def renew(self, equation: StepEquation, u: np.ndarray) -> None:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""

@@ -39,10 +39,8 @@ def slips(scene: SceneFields) -> tuple[str, ...]:
         warnings += layer_slips(sheet, springs.layer_distance, "springs.layer_distance")
     if not warnings:  # else they may be the reason
         warnings = [*_strain_slips(scene)]
-    if _nothing_moves(scene):
-        warnings.append(
-            "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
-        )
+    still = "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
+    warnings += [still] * _nothing_moves(scene)
     return tuple(warnings)
 
 

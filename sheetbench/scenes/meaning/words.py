@@ -211,9 +211,8 @@ def _weight(scene: SceneFields, mass: float) -> str:
     whole = f", of {1e3 * mass:.3g} g in all" if scene.masses else ""
     if (gravity := scene.gravity) is None:
         return f"none: weightless{whole}"
-    return (
-        f"{_vector([mass * part for part in gravity.acceleration], 'N')}{whole}{_over_time(gravity.history)}"
-    )
+    force = _vector([mass * part for part in gravity.acceleration], "N")
+    return f"{force}{whole}{_over_time(gravity.history)}"
 
 
 def _support(support: AnySupport, sheet: Sheet) -> str:

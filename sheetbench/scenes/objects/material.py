@@ -117,9 +117,8 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
     schema.pop("required", None)
     needed = {"if": fibres, "then": {"required": ["density", *NEEDED]}, "else": needed}
     cloth = {"properties": {"kind": {"const": "stiffness"}}, "required": ["kind"]}
-    schema["allOf"] = [
-        {"if": cloth, "then": {"required": ["membrane", "bending", "area_density"]}, "else": needed}
-    ]
+    stiffnesses = {"required": ["membrane", "bending", "area_density"]}
+    schema["allOf"] = [{"if": cloth, "then": stiffnesses, "else": needed}]
 
 
 class Material(Fibres):

@@ -51,9 +51,8 @@ class Stiffnesses(Frozen):
 def as_laminate(data: Mapping[str, Any], material: Any) -> dict[str, Any]:
     """Return a scene's keys with thickness, orthotropic material and layers in place of the stiffnesses.
     Raises ValueError for stiffnesses that no laminate has."""
-    rest = {
-        key: value for key, value in dict(data["material"]).items() if key not in (*KEYS, "poisson", "kind")
-    }
+    replaced = (*KEYS, "poisson", "kind")
+    rest = {key: value for key, value in dict(data["material"]).items() if key not in replaced}
     sheet = dict(data["sheet"]) if isinstance(data.get("sheet"), Mapping) else data["sheet"].model_dump()
     membrane, bending = material.stiffness("membrane"), material.stiffness("bending")
     for key, form in (("membrane", membrane), ("bending", bending)):

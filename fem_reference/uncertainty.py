@@ -178,15 +178,8 @@ def estimate(
         change = np.where(trusted, step / (ratio ** np.where(trusted, order, 1.0) - 1.0), 0.0)
     error = _by_pairs(answers, sizes, field_order) + _by_layer(answers, layers)
     bar = weight * error + neighbours * _relative(error, fine) * np.abs(fine)
-    return Uncertainty(
-        sizes=tuple(sizes),
-        answer=fine,
-        extrapolated=np.where(rounding, fine, fine + change),
-        order=order,
-        bar=np.where(rounding, spread, bar),
-        trusted=trusted,
-        converging=converging,
-    )
+    bar, extrapolated = np.where(rounding, spread, bar), np.where(rounding, fine, fine + change)
+    return Uncertainty(tuple(sizes), fine, extrapolated, order, bar, trusted, converging)
 
 
 def _by_pairs(answers: Sequence[np.ndarray], sizes: Sequence[float], order: float) -> np.ndarray:

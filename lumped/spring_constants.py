@@ -156,12 +156,12 @@ class Springs:
 
     @property
     def varies(self) -> bool:
-        """Whether any constant is given cell by cell."""
+        """Return whether any constant is given cell by cell."""
         return any(part.size > 1 for parts in self.of.values() for part in parts)
 
     @property
     def rubber(self) -> bool:
-        """Whether the layers' cells are rubber membranes."""
+        """Return whether the layers' cells are rubber membranes."""
         return "neo_hookean_shear" in self.of or "mooney_rivlin" in self.of
 
     def scaled(self, factor: np.ndarray) -> Springs:

@@ -136,18 +136,18 @@ class Discrete(ABC):
 
     @property
     def symmetric(self) -> bool:
-        """Whether the tangent is symmetric: loads that follow the sheet make it unsymmetric, unless they have
-        a potential or the sheet is linear."""
+        """Return whether the tangent is symmetric: loads that follow the sheet make it unsymmetric, unless
+        they have a potential or the sheet is linear."""
         return self.linear or all(item.conservative for item in self.items)
 
     @property
     @abstractmethod
     def sheet_mass(self) -> csr_matrix:
-        """M (N, N) of the sheet, on which `damping_rate` acts, and its payloads."""
+        """Return M (N, N) of the sheet, on which `damping_rate` acts, and its payloads."""
 
     @cached_property
     def mass(self) -> csr_matrix:
-        """M (N, N) with the chains' mass."""
+        """Return M (N, N) with the chains' mass."""
         return sum((body.mass() for body in self.bodies), self.sheet_mass).tocsr()
 
     # prescribed displacements and the unknowns

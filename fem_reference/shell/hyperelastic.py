@@ -107,10 +107,9 @@ class HyperelasticElement(Element):
 
     def _strains(self, strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return E and κ (m, 9, 3) at every element's points from the sampled strains (m, ≥ 42)."""
-        return (
-            np.einsum("egak,ek->ega", self.membrane, strain[:, MEMBRANE]),
-            np.einsum("egak,ek->ega", self.bending, strain[:, BENDING]),
-        )
+        forms = (self.membrane, MEMBRANE), (self.bending, BENDING)
+        stretch, curvature = (np.einsum("egak,ek->ega", form, strain[:, part]) for form, part in forms)
+        return stretch, curvature
 
     def _response(self, stretch: np.ndarray, bent: np.ndarray) -> Triad:
         """Return the law's response to E and t κ through the thickness, (m, 9, 3, …)."""

@@ -53,10 +53,9 @@ def shift(scene: Scene, answer: Solution) -> float | None:
         moved = [np.zeros(1)]
         try:
             factor = sheet.solver().factor(matrix)
+            plain = sheet.plan.corners, scene.material, scene.sheet.thickness
             for law in OTHERS:
-                other = HyperelasticElement.of(
-                    sheet.plan.corners, scene.material, scene.sheet.thickness, LAWS[law]
-                )
+                other = HyperelasticElement.of(*plain, LAWS[law])
                 # the answer's own residual is not counted
                 state, forces, residual = start, rest, np.zeros(1)
                 for _ in range(STEPS):

@@ -100,7 +100,7 @@ class DiscreteSolid(DiscreteElements):
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """∫ ρ N N dV (m, 3 s, 3 s) of the stacks, with the payloads on columns' means and directors."""
+        """Return ∫ ρ N N dV (m, 3 s, 3 s) of the stacks, with payloads on columns' means and directors."""
         blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
         if self.scene.masses:
             add_carried(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))

@@ -91,11 +91,11 @@ class Columns:
         clockwise = (b - a)[0] * (d - a)[1] < (b - a)[1] * (d - a)[0]  # as scikit-fem numbers some meshes
         base = self.levels * np.where(clockwise[:, None], plan[:, ::-1], plan)
         cells = [np.concatenate([base + level, base + level + 1], axis=1) for level in range(self.levels - 1)]
-        return FieldMesh(
-            self.positions.reshape(-1, 3),
+        blocks, fields = (
             [("hexahedron", np.concatenate(cells))],
             {"displacement": displacement.reshape(-1, 3)},
         )
+        return FieldMesh(self.positions.reshape(-1, 3), blocks, fields)
 
 
 def _require_meshable(scene: Scene, law: str) -> None:

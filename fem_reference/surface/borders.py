@@ -34,7 +34,7 @@ class Borders(NamedTuple):
 
     @property
     def along_axes(self) -> bool:
-        """Whether all borders lie along x or y."""
+        """Return whether all borders lie along x or y."""
         begin, end = self._sides
         return bool(np.all((begin == end).any(axis=1)))
 

@@ -48,8 +48,8 @@ def report(
     rows: dict[str, dict[str, Any]] = {}
     worst = np.where(off_most, rigidity, 0.0).argmax(axis=1)
     for name, at, *values in zip(names, worst, targets, results, misses, strict=True):
-        asked_got_miss = (float(of_cells[at]) for of_cells in values)
-        rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
+        target_got_miss = (float(of_cells[at]) for of_cells in values)
+        rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), target_got_miss, strict=True))}
         if name.startswith("S"):
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
@@ -60,11 +60,9 @@ def report(
     forms = (got.membrane, got.free_bending) if negative or coupled or mixed else ()
     if any(np.linalg.eigvalsh(form).min() <= 0.0 for form in forms):
         raise BadInput(f"{constants}: the cell's energy is not positive")
-    off = [
-        f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %"
-        for row, at, size in zip(rows.values(), worst, sizes, strict=True)
-        if abs(row["got"] - row["asked"]) > 0.01 * size[at]
-    ]
+    sized = [(row, size[at]) for row, at, size in zip(rows.values(), worst, sizes, strict=True)]
+    missed = [row for row, size in sized if abs(row["got"] - row["asked"]) > 0.01 * size]
+    off = [f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %" for row in missed]
     notes = [f"these springs miss {', '.join(off)}"] if off else []
     if off and not springs.of.keys() & {"area", "shear"}:
         notes.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")

@@ -119,18 +119,18 @@ class System:
 
     @property
     def working(self) -> bool:
-        """Whether loads follow the sheet or change over time, or a natural state changes, so that there is no
-        potential."""
+        """Return whether there is no potential: loads follow the sheet or change over time, or a natural
+        state changes."""
         return not self.problem.loads.potential or self.growing is not None
 
     @property
     def resists(self) -> bool:
-        """Whether there is dissipation other than by branches."""
+        """Return whether there is dissipation other than by branches."""
         return self.damping.present or any(item.resists for item in self.items)
 
     @property
     def constrained(self) -> bool:
-        """Whether there are multipliers."""
+        """Return whether there are multipliers."""
         return bool(self.algebraic.any())
 
     def drive(self, time: float) -> Drive:

@@ -123,10 +123,8 @@ class FittedCalibration(Calibration):
     def tables(self) -> tuple[Table, ...]:
         widths = self.identifiability.half_widths if self.identifiability else {}
         shares = {"area": "of the diagonal", "mid_area": "of the diagonal"}
-        rows = [
-            FitRow(name, shares.get(name, "of itself"), width if np.isfinite(width) else None)
-            for name, width in widths.items()
-        ]
+        finite = {name: width if np.isfinite(width) else None for name, width in widths.items()}
+        rows = [FitRow(name, shares.get(name, "of itself"), width) for name, width in finite.items()]
         caption = "Springs and their 95 % intervals from the data"
         return (*super().tables(), Table.of(FitRow, rows, caption, "fit"))
 

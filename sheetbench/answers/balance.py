@@ -62,12 +62,8 @@ class Balance:
 
     def document(self) -> dict[str, Any]:
         """Return the residual for JSON: N, N·m, and as a fraction of the forces."""
-        return {
-            "force": self.force.tolist(),
-            "moment": self.moment.tolist(),
-            "relative": self.relative,
-            "holds": self.holds,
-        }
+        residual = {"force": self.force.tolist(), "moment": self.moment.tolist()}
+        return {**residual, "relative": self.relative, "holds": self.holds}
 
 
 def dead_force(

@@ -311,10 +311,8 @@ class Material(Fibres):
         if self.loss_factor is not None and self.band is not None:
             return constant_loss(self.loss_factor, *self.band)
         rest = 1.0 - sum(branch.share for branch in self.relaxation)
-        return Branches(
-            tuple(branch.share / rest for branch in self.relaxation),
-            tuple(branch.time for branch in self.relaxation),
-        )
+        stiffness = tuple(branch.share / rest for branch in self.relaxation)
+        return Branches(stiffness, tuple(branch.time for branch in self.relaxation))
 
     @property
     def energy(self) -> Energy:

@@ -43,12 +43,8 @@ class Edge(NamedTuple):
         return (sign, 0.0, 0.0) if self.normal_axis == 0 else (0.0, sign, 0.0)
 
 
-EDGES: dict[str, Edge] = {
-    "x0": Edge(0, 1, False),
-    "x1": Edge(0, 1, True),
-    "y0": Edge(1, 0, False),
-    "y1": Edge(1, 0, True),
-}
+EDGES: dict[str, Edge] = {"x0": Edge(0, 1, False), "x1": Edge(0, 1, True)}
+EDGES |= {"y0": Edge(1, 0, False), "y1": Edge(1, 0, True)}
 
 
 class Sheet(Frozen):

@@ -98,11 +98,6 @@ def _thickness(sheet: Mapping[str, Any], ratio: float) -> float:
 
 def _constants(form: np.ndarray) -> dict[str, float]:
     """Return the constants of a ply with a plane-stress stiffness (3, 3) [Pa]."""
-    compliance = np.linalg.inv(form[:2, :2])
-    values = (
-        1.0 / compliance[0, 0],
-        1.0 / compliance[1, 1],
-        0.0 - compliance[0, 1] / compliance[0, 0],
-        form[2, 2],
-    )
+    (along, mixed), (_, across) = np.linalg.inv(form[:2, :2])  # 1/E₁, −ν₁₂/E₁ and 1/E₂
+    values = 1.0 / along, 1.0 / across, 0.0 - mixed / along, form[2, 2]
     return dict(zip(NEEDED, map(float, values), strict=True))

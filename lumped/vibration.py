@@ -222,11 +222,8 @@ def frequency_slopes(
 
 def _shift(scene: Scene) -> float:
     """Return the shift σ = −100 E h²/(12 ρ a⁴) [1/s²], as far below zero as the lowest elastic eigenvalue of
-    a plate is above it (12 to 1300 of E h²/(12 ρ a⁴), by its supports).
-
-    A free sheet's K − σM has the condition λ_max/|σ|, so its solutions, and with them the eigenvalues, are
-    wrong by ε λ_max/|σ|: with this σ no more than the rounding of K itself, ε λ_max/λ.
-    """
+    a plate is above it (12 to 1300 of E h²/(12 ρ a⁴), by its supports). Eigenvalues of a free sheet are wrong
+    by ε λ_max/|σ|, K − σM having the condition λ_max/|σ|: no more than by the rounding of K, ε λ_max/λ."""
     sheet, material = scene.sheet, scene.material
     slope = sheet.thickness / max(sheet.lengths) ** 2
     return -100.0 * slope**2 * material.young / (12.0 * material.density)

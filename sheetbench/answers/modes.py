@@ -30,7 +30,7 @@ class FrequencyRow:
 class NaturalModes(Answer):
     """Base of a model's modes. frequencies: (count,) [Hz], rising. shapes: (count, n, 3), displacements of
     the model's nodes. rigid: the number of rigid motions, which are left out. unknowns: of the
-    eigenproblem. gradient_of: returns the derivatives of the frequency of a mode's number; None without."""
+    eigenproblem. gradient_of: function of a mode's number that returns the derivatives of its frequency."""
 
     file_name = "modes"
     no_gradient: ClassVar[str]  # why modes have no derivatives, with {0} for the modes

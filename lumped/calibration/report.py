@@ -54,7 +54,9 @@ def report(
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
     areas = springs["area"], springs["mid_area"]
-    constants = "area = {}, mid_area = {} N/m".format(*map(_range_text, areas))
+    ends = [sorted({of_cells.min(), of_cells.max()}) for of_cells in areas]
+    ranges = (" … ".join(f"{end:.4g}" for end in both) for both in ends)
+    constants = "area = {}, mid_area = {} N/m".format(*ranges)
     negative = min(map(np.min, areas)) < 0.0
     coupled = springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}
     forms = (got.membrane, got.free_bending) if negative or coupled or mixed else ()
@@ -76,9 +78,3 @@ def report(
 def _reference(name: str) -> str:
     """Return the modulus that gives the scale of another: D11 for D12, D16 and D26, Sx for Sxy."""
     return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name.replace("Sxy", "Sx")
-
-
-def _range_text(values: np.ndarray) -> str:
-    """Return a number, or the least and the largest number of the cells, as text."""
-    least, most = values.min(), values.max()
-    return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"

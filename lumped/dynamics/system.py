@@ -287,11 +287,9 @@ class System:
         elastic, _, force = self.for_step(state).internal(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             elastic += self.maxwell.branches.stored(state.memory)
-        energies = {
-            "kinetic": 0.5 * float(np.vdot(state.v, self.momentum(state.v))),
-            "elastic": elastic,
-            "potential": -float(np.sum(self.problem.loads.dead * state.u)),
-        }
+        kinetic = 0.5 * float(np.vdot(state.v, self.momentum(state.v)))
+        potential = -float(np.sum(self.problem.loads.dead * state.u))
+        energies = {"kinetic": kinetic, "elastic": elastic, "potential": potential}
         return energies, self.momentum(state.a) + force - self.external(state.u, state.time)
 
     def exerted(self, state: State) -> np.ndarray:

@@ -113,11 +113,8 @@ class FittedCalibration(Calibration):
         """Return the document of a calibration, with the springs' 95 % intervals: half widths as shares of
         the spring, of area springs as shares of the diagonal's stiffness."""
         report = self.identifiability
-        fit = {
-            "residual": self.residual,
-            "half_widths": report.half_widths if report else {},
-            "singular_values": report.singular_values if report else [],
-        }
+        widths, singular = (report.half_widths, report.singular_values) if report else ({}, np.empty(0))
+        fit = {"residual": self.residual, "half_widths": widths, "singular_values": singular}
         return {**super().document(), "fit": fit}
 
     def tables(self) -> tuple[Table, ...]:

@@ -9,15 +9,7 @@ import numpy as np
 
 GAMMA = 23 / 125  # on the diagonal of every stage but the first
 ABSCISSAE = np.array(
-    [
-        0.0,
-        46 / 125,
-        7121331996143 / 11335814405378,
-        49 / 353,
-        3706679970760 / 5295570149437,
-        347 / 382,
-        1.0,
-    ]
+    [0.0, 46 / 125, 7121331996143 / 11335814405378, 49 / 353, 3706679970760 / 5295570149437, 347 / 382, 1.0]
 )
 _INNER = (  # of stages 3 to 6, from the second column to the diagonal
     (791020047304 / 3561426431547,),

@@ -56,11 +56,9 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     yield "weight", _weight(scene, mass + carried(scene))
     if scene.air is not None:
         share = 100.0 * scene.air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
-        yield (
-            "air",
-            f"drag of {scene.air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest. The "
-            f"mass of air that moves along, up to {share:.2g} % of the sheet's, is left out",
-        )
+        drag = f"drag of {scene.air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest"
+        carried_along = f"mass of air that moves along, up to {share:.2g} % of the sheet's, is left out"
+        yield "air", f"{drag}. The {carried_along}"
     for name, support in named(scene.supports).items():
         yield f"edge {name}" if place(support) is None else name, _support(support, sheet)
     for n, load in enumerate(scene.loads, start=1):

@@ -15,7 +15,6 @@ from importlib.util import find_spec
 from itertools import product
 from pathlib import Path
 
-import lumped
 import sheetbench as sb
 from sheetbench import scenes
 from sheetbench.scenes import Scene
@@ -55,19 +54,16 @@ def answers() -> dict[str, list[float]]:
 
 def build(folder: Path) -> str:
     """Write the page with its programs to a folder; return their number, or the reason for none."""
-    from comparisons.codes.onefile import program
-
     shutil.copytree(HERE, folder, dirs_exist_ok=True)
     shutil.copy(STYLE, folder)
     if find_spec("ziglang") is None:
         return "no compiler: pip install ziglang, then make docs"
     for name, thickness in product(SCENES, THICKNESSES):
-        scene, out = scene_of(name, thickness), folder.resolve() / f"{name}-{1e3 * thickness:g}.wasm"
-        texts = program(scene, lumped.calibrate(scene.sheet, scene.material, POINTS), steps=20).texts
+        out = folder.resolve() / f"{name}-{1e3 * thickness:g}.wasm"
         with tempfile.TemporaryDirectory() as place:
-            Path(place, "sheet.h").write_text(texts["sheet.h"], encoding="utf-8")
-            Path(place, "sheet.c").write_text(texts["sheet.c"] + "sheet SHEET;\n", encoding="utf-8")
-            subprocess.run([*COMPILER, "sheet.c", "-o", str(out)], cwd=place, check=True)
+            sb.calibrate(scene_of(name, thickness), grid=POINTS, for_="c", out=place)
+            Path(place, "room.c").write_text('#include "sheet.h"\nsheet SHEET;\n')
+            subprocess.run([*COMPILER, "sheet.c", "room.c", "-o", out], cwd=place, check=True)
     return f"{len(SCENES) * len(THICKNESSES)} lattices"
 
 

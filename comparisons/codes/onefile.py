@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from string import Template
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,9 +17,6 @@ import numpy as np
 import lumped
 from comparisons.codes.c_tables import PRECISIONS, WHOLE, Tables, identifiers
 from comparisons.codes.files import script
-from lumped.dynamics.integrator import LatticeSamples
-from lumped.dynamics.runs.observer import LatticeObserver
-from lumped.springs.law_table import RUBBER
 from sheetbench.answers.history import ENERGIES
 from sheetbench.errors import BadInput, require_choice
 from sheetbench.scenes import Scene, require_no_branches, tilt_axes
@@ -32,7 +30,6 @@ if TYPE_CHECKING:
     from lumped import Calibration, State, System
 
 LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
-NO_GRAVITY = Gravity(acceleration=(0.0, 0.0, 0.0))
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
 
@@ -74,9 +71,9 @@ def program(
     bodies = named(scene.supports) | scene.named_obstacles()
     sources = {source.name: source.of for source in sources_of(scene)}
     names = {"POINT": identifiers(scene.probes), "BODY": identifiers(bodies), "SOURCE": identifiers(sources)}
-    steady = scene.gravity if scene.gravity and not scene.gravity.history else NO_GRAVITY
+    steady = scene.gravity.acceleration if scene.gravity and not scene.gravity.history else (0.0, 0.0, 0.0)
     inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
-    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady.acceleration, strict=True)}
+    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady, strict=True)}
     inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
     outputs = {f"{point}.u{axis}": "m" for point in names["POINT"] for axis in "xyz"}
     outputs |= {f"{body}.R{axis}": "N" for body in names["BODY"] for axis in "xyz"}
@@ -87,7 +84,7 @@ def program(
     tables.add("SHEET_REST", np.concatenate([lattice.positions, middles]), storage="")
     add_springs(tables, system)
     add_masses(tables, system)
-    add_loads(tables, system, calibration, steady.acceleration)
+    add_loads(tables, system, calibration, steady)
     add_contact(tables, system)
     add_growth(tables, system)
     loads = dict.fromkeys(one.history for one in (scene.gravity, *scene.loads) if one and one.history)
@@ -125,16 +122,20 @@ def program(
 def samples(system: System, start: State, step: float, steps: int) -> list[list[float]]:
     """Return time [s], probes [m], forces of supports and obstacles [N] and energies [J] of some of so many
     of `lumped`'s own steps [s]. Raises StepFailed."""
-    observer, integrator = LatticeObserver(system), lumped.INTEGRATORS["verlet"](system, step)
-    rows, state = [], start
+    probes = lumped.MidSurface(system.assembly.lattice, system.scene.probe_points())
+    rows, state, integrator = [], start, lumped.INTEGRATORS["verlet"](system, step)
     for left in (0, *[steps // MOMENTS] * MOMENTS):
         while left:
             advance = integrator.march(state, step, left)
             state, left = advance.state, left - advance.steps
         if not (system.assembly.any_strain or system.assembly.links.largest_strain(state.u) < LARGEST):
             raise lumped.StepFailed(f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times its length")
-        time, *energies = observer.rows(LatticeSamples.of(state))[0].tolist()
-        rows.append([time, *energies[5:], *energies[:3]])
+        acceleration = state.a + system.prescribed.support_acceleration(state.time)
+        energies, exerted = system.balance(replace(state, a=acceleration))
+        held, at = system.problem.constraints.reactions(exerted)[0], (state.u, system.drive(state.time))
+        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.items]
+        row = [[state.time], *probes.of(state.u), *held.values(), *pushed, [*energies.values()]]
+        rows.append(np.concatenate(row).tolist())
     return rows
 
 
@@ -153,7 +154,7 @@ def add_springs(tables: Tables, system: System) -> None:
     for family in families:  # layers, mid-surface, upright faces
         row, k, masses = np.zeros((len(family), 23)), family.constants, family.nodes[:, :, 0]
         row[:, :6], row[:, 13] = family.sides.reshape(-1, 6), tau
-        if family.law is RUBBER:
+        if k.shape[1] == 13:  # rubber
             k, row[:, 14:] = k[:, :4], k[:, 4:]
         row[:, 6 : 6 + k.shape[1]] = k
         cells.append(row)

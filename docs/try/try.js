@@ -40,7 +40,7 @@ async function load(name) {
 
 // E in proportion to every spring: gravity and forces over it and time by its root are the same motion
 function apply() {
-  for (const name in CHOICES) by(name).previousElementSibling.textContent = CHOICES[name].shown(value(name));
+  for (const name in CHOICES) by(name).ariaValueText = by(name).previousElementSibling.textContent = CHOICES[name].shown(value(name));
   const ratio = value("gravity") / value("E"), sheet = `${value("scene")} ${value("thickness")}`;
   known = ratio === 0 ? 0 : answers[sheet]?.[LOADS.indexOf(ratio)] ?? null;
   if (wanted !== sheet) load(wanted = sheet);

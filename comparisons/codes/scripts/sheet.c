@@ -262,8 +262,9 @@ real sheet_get(sheet *s, int output) {
   } else if (body < SHEET_BODIES) {
     MASSES(i) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->path[OWNER[i][e] - 1][e][2] : 0);
     sum = s->pressed[body][e];
-    for (int n = SUMMED[3 * body + e]; body < SHEET_SUPPORTS && n < SUMMED[3 * body + e + 1]; n++)
-      sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
+    if (body < SHEET_SUPPORTS)
+      for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
+        sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
   } else if (e == SHEET_KINETIC) MASSES(i) EACH(x) sum += s->v[i][x] * across(s->v, i, x, P) / 2;
   else sum = e == SHEET_ELASTIC ? s->stored : s->fallen;
   return (real)sum;

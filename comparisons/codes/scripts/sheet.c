@@ -257,16 +257,18 @@ void sheet_move_support(sheet *s, int body, const real displacement[3], const re
 real sheet_get(sheet *s, int output) {
   const int e = output % 3, part = output / 3, body = part - SHEET_POINTS;
   double sum = 0;
-  if (part < SHEET_POINTS) {
+  if (body < 0) {
     for (int n = PROBE[part]; n < PROBE[part + 1]; n++) sum += PROBE_SHARE[n] * s->u[PROBE_AT[n]][e];
-  } else if (body < SHEET_BODIES) {
+  } else if (body >= SHEET_BODIES) {
+    if (e == SHEET_KINETIC) MASSES(i) EACH(x) sum += s->v[i][x] * across(s->v, i, x, P) / 2;
+    else sum = e == SHEET_ELASTIC ? s->stored : s->fallen;
+  } else {
     MASSES(i) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->path[OWNER[i][e] - 1][e][2] : 0);
     sum = s->pressed[body][e];
     if (body < SHEET_SUPPORTS)
       for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
         sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
-  } else if (e == SHEET_KINETIC) MASSES(i) EACH(x) sum += s->v[i][x] * across(s->v, i, x, P) / 2;
-  else sum = e == SHEET_ELASTIC ? s->stored : s->fallen;
+  }
   return (real)sum;
 }
 void sheet_probe(sheet *s, int point, real displacement[3]) { EACH(e) displacement[e] = sheet_get(s, 3 * point + e); }

@@ -20,6 +20,7 @@ import scipy.sparse as sp
 
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
+from sheetbench.numerics import across
 from sheetbench.scenes.objects.grid import Grid
 
 SIDES = np.array([[0, 1], [1, 2], [3, 2], [0, 3]])
@@ -35,16 +36,6 @@ def shapes(r: np.ndarray, s: np.ndarray) -> np.ndarray:
         odd = 0.5 * np.minimum(x, 1.0 - x) * (1.0 - 2.0 * x) * (1.0 - y)
         found += [odd + even, odd - even]
     return np.stack(found, axis=1)
-
-
-def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return a bᵀ (…, 3, 3) of vectors (…, 3)."""
-    return np.asarray(a[..., :, None] * b[..., None, :])
-
-
-def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return a·b (…, 1, 1) of vectors (…, 3)."""
-    return np.asarray((a * b).sum(-1)[..., None, None])
 
 
 class CellSurface:
@@ -63,33 +54,23 @@ class CellSurface:
         """Return corners and a (m, 12, 3) [m], and Δx and d at the ends of sides (2, m, 8, 3)."""
         linear = self.linear @ places
         step, d = ends = np.stack([linear[:, 4:12], linear[:, 12:]])
-        return np.concatenate([linear[:, :4], -(dot(step, d) / dot(d, d))[..., 0] * d], axis=1), ends
+        return np.concatenate([linear[:, :4], across.correction(step, d)], axis=1), ends
 
     def slopes(self, ends: np.ndarray) -> np.ndarray:
         """Return derivatives (m, 12, 3, 20, 3) of corners and a by the vectors of the linear map."""
-        step, d = ends
-        out, corner, curve = np.zeros((len(d), 12, 3, LINEAR, 3)), np.arange(4), np.arange(4, 12)
-        square, dyad = dot(d, d), outer(d, d)
-        by_d = 2.0 * dot(step, d) * dyad / square**2 - (outer(d, step) + dot(step, d) * np.eye(3)) / square
+        out, corner, curve = np.zeros((ends.shape[1], 12, 3, LINEAR, 3)), np.arange(4), np.arange(4, 12)
         out[:, corner, :, corner] = np.eye(3)
-        out[:, curve, :, curve] = (-dyad / square).swapaxes(0, 1)
-        out[:, curve, :, curve + 8] = by_d.swapaxes(0, 1)
+        for later, by in zip((0, 8), across.first(*ends), strict=True):
+            out[:, curve, :, curve + later] = by.swapaxes(0, 1)
         return out
 
     def second(self, ends: np.ndarray, pull: np.ndarray) -> np.ndarray:
         """Return Σ f·∂²a (m, 20, 3, 20, 3) by the vectors of the linear map, of f on a (m, 8, 3)."""
-        (step, d), f = ends, pull
-        square, dyad, along, pulled = dot(d, d), outer(d, d), dot(step, d), dot(f, d)
-        both, mixed = outer(step, f), outer(step * pulled[..., 0] + f * along[..., 0], d)
-        crossed = 2.0 * pulled * dyad / square**2 - (outer(d, f) + pulled * np.eye(3)) / square
-        turned = (
-            2.0 * (mixed + along * pulled * (0.5 * np.eye(3) - 2.0 * dyad / square)) / square**2
-            - both / square
-        )
-        out, curve = np.zeros((len(d), LINEAR, 3, LINEAR, 3)), np.arange(4, 12)
-        out[:, curve, :, curve + 8] = crossed.swapaxes(0, 1)
-        out[:, curve + 8, :, curve] = crossed.swapaxes(0, 1).swapaxes(-1, -2)
-        out[:, curve + 8, :, curve + 8] = (turned + turned.swapaxes(-1, -2)).swapaxes(0, 1)
+        mixed, both = (by.swapaxes(0, 1) for by in across.second(*ends, pull))
+        out, curve = np.zeros((len(pull), LINEAR, 3, LINEAR, 3)), np.arange(4, 12)
+        out[:, curve, :, curve + 8] = mixed
+        out[:, curve + 8, :, curve] = mixed.swapaxes(-1, -2)
+        out[:, curve + 8, :, curve + 8] = both
         return out
 
 

@@ -79,21 +79,18 @@ def transform(by: np.ndarray, q: np.ndarray, c: np.ndarray) -> None:
 def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, count: int) -> int:
     """Append Gauss points between lo and hi at a y to the first `count` of `points` (…, 3), x, y, weight;
     return the new count."""
-    lo, hi = max(lo, -1.0), min(hi, 1.0)
-    if hi > lo:
-        for g in range(len(ALONG)):
-            points[count, 0] = 0.5 * (lo + hi) + 0.5 * (hi - lo) * ALONG[g]
-            points[count, 1] = y
-            points[count, 2] = weight * 0.5 * (hi - lo) * ALONG_WEIGHTS[g]
-            count += 1
-    return count
+    for g in range(len(ALONG)):
+        points[count + g, 0] = 0.5 * (lo + hi) + 0.5 * (hi - lo) * ALONG[g]
+        points[count + g, 1] = y
+        points[count + g, 2] = weight * 0.5 * (hi - lo) * ALONG_WEIGHTS[g]
+    return count + len(ALONG)
 
 
 @inner()
 def patch(q: np.ndarray, points: np.ndarray) -> int:
     """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive: how
     many."""
-    count, c, ends, p = 0, np.empty((3, 3)), np.empty(12), np.zeros(5)
+    count, c, ends, p, cuts = 0, np.empty((3, 3)), np.empty(12), np.zeros(5), np.full(4, -1.0)
     transform(BERNSTEIN, q, c)
     if c.max() <= 0.0:
         return 0
@@ -123,18 +120,14 @@ def patch(q: np.ndarray, points: np.ndarray) -> int:
             y, w = middle + half * ACROSS[g], half * ACROSS_WEIGHTS[g]
             at = c[0] + y * (c[1] + y * c[2])
             disc = at[1] * at[1] - 4.0 * at[2] * at[0]
-            if disc <= 0.0:
-                if at[0] > 0.0:
-                    count = add_line(y, w, -1.0, 1.0, points, count)
-                continue
-            t = -0.5 * (at[1] + np.copysign(np.sqrt(disc), at[1]))
-            a, b = t / at[2], at[0] / t
-            lo, hi = min(a, b), max(a, b)
-            if at[2] < 0.0:
-                count = add_line(y, w, lo, hi, points, count)
-            else:
-                count = add_line(y, w, -1.0, lo, points, count)
-                count = add_line(y, w, hi, 1.0, points, count)
+            cuts[1:] = 1.0
+            if disc > 0.0:
+                t = -0.5 * (at[1] + np.copysign(np.sqrt(disc), at[1]))
+                cuts[1], cuts[2] = min(t / at[2], at[0] / t), max(t / at[2], at[0] / t)
+            for i in range(3):
+                lo, hi = max(cuts[i], -1.0), min(cuts[i + 1], 1.0)
+                if hi > lo and value(at, 2, 0.5 * (lo + hi)) > 0.0:
+                    count = add_line(y, w, lo, hi, points, count)
     return count
 
 

@@ -57,17 +57,10 @@ def points(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     root = np.sqrt(np.maximum(y * y - 4.0 * x * z, 0.0))
     t = -0.5 * (y + np.copysign(root, y))
     with np.errstate(divide="ignore", invalid="ignore"):
-        pair = np.sort(
-            np.clip(np.nan_to_num(np.stack([t / x, z / t]), nan=2.0, posinf=2.0, neginf=-2.0), -1.0, 1.0),
-            axis=0,
-        )
-    rootless = y * y <= 4.0 * x * z
-    cuts = np.stack([-np.ones_like(r), *pair, np.ones_like(r)])  # below, between and above the roots
-    low, high = (
-        np.where(rootless, np.stack([cuts[0], cuts[3], cuts[3]]), cuts[:-1]),
-        np.where(rootless, cuts[3], cuts[1:]),
-    )
-    at = 0.5 * (low + high)
+        pair = np.nan_to_num(np.stack([t / x, z / t]), nan=1.0)
+    below, above = np.sort(np.clip(pair, -1.0, 1.0), axis=0)
+    low, high = np.stack([0.0 * r - 1.0, below, above]), np.stack([below, above, 0.0 * r + 1.0])
+    at = 0.5 * (low + high)  # of one sign up to both ends, also where there is no root
     inside = x * at * at + y * at + z > 0.0
     width = 0.5 * (high - low) * inside * weight
     s = at[..., None] + 0.5 * (high - low)[..., None] * INNER

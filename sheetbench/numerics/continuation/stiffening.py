@@ -5,11 +5,12 @@ corrections each: Newton's method on a quadratic penalty is the primal–dual ac
 changes the active set slowly. So soft penalties are raised at the full load in stages of equal factors, each
 by Newton's method with extrapolated stresses. Under a given load a patch is k^(−1/2) deep where it touches
 around a point, k^(−2/3) along a line: from the second stage on, the shape goes as far beyond the last one as
-that depth does, but not where the patch keeps its area: on a box's face depths are like 1/k. All stages but the last end at a residual small enough for a rolling contact to settle while
-its patch is wide, and small beside what contact bears: a sheet that natural curvature bends may be light. A
-failed stage is repeated from the last shape itself with the square root of its factor. The status is the last
-stage's. If soft penalties fail or lead through an obstacle, `settle` starts again from rest with stiff ones,
-in load steps so short that no obstacle moves by more than a quarter of its radius in one.
+that depth does, but not where the patch keeps its area, as on a box's face, where depths are like 1/k. All
+stages but the last end at a residual small enough for a rolling contact to settle while its patch is wide,
+and small beside what contact bears: a sheet that natural curvature bends may be light. A failed stage is
+repeated from the last shape itself with the square root of its factor. The status is the last stage's. If
+soft penalties fail or lead through an obstacle, `settle` starts again from rest with stiff ones, in load
+steps so short that no obstacle moves by more than a quarter of its radius in one.
 
 A penalty has the `obstacle`, the acting `share` of its stiffness, whether its patch is within cells, `bent`,
 and at its points the full stiffness `full` (…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method
@@ -143,7 +144,7 @@ def _raised(path: Path[State, Forces], share: float) -> Fault | None:
     path.limits = replace(path.limits, corrections=PATIENT, back=PATIENT)
     narrow = within_cells = all(one.bent for one in structure.contacts)
     power = POINT if all(one.obstacle.kind == "sphere" for one in structure.contacts) else LINE
-    before, last, (area, borne) = path.state, None, touched(path)
+    before, last, (area, borne) = path.state, 0.0, touched(path)
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
         soften(structure.contacts, target)
@@ -162,6 +163,6 @@ def _raised(path: Path[State, Forces], share: float) -> Fault | None:
         before, (path.state, path.factor) = path.state, found
         if (fault := path.inspect(path)) is not None or target == 1.0:
             return fault
-        if last is None:
+        if not last:
             narrow = narrow and touched(path)[0] < NARROW * area
         share, last = target, shrunk

@@ -144,22 +144,23 @@ def shape(x: float, y: float, f: np.ndarray) -> None:
 def integrate(
     depth: np.ndarray, stiffness: np.ndarray, over: np.ndarray, tangent: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return energies ∫ ψ (m,) [J], loads ∫ ψ' φ (m, 9) [N] and ∫ ψ'' φ φᵀ (m, 9, 9) [N/m] of depths (m, 9)
-    [m], and the deepest (m,); stiffness: k (m, 9) [N/m]; over: δ (m,) [m], 0 for ψ = ½ k d²; tangent: whether
-    to compute ∫ ψ'' φ φᵀ."""
-    m = len(depth)
-    energy, load, by = np.zeros(m), np.zeros((m, 9)), np.zeros((m, 9, 9))
+    """Return energies ∫ ψ (m,) [J], loads ∫ ψ' φ (m, n) [N] and ∫ ψ'' φ φᵀ (m, n, n) [N/m] of depths (m, n)
+    [m], n = 9 of a patch or 1 of a point with φ = 1, and the deepest (m,); stiffness: k (m, n) [N/m]; over: δ
+    (m,) [m], 0 for ψ = ½ k d²; tangent: whether to compute ∫ ψ'' φ φᵀ."""
+    m, n = depth.shape
+    energy, load, by = np.zeros(m), np.zeros((m, n)), np.zeros((m, n, n))
     deepest = np.empty(m)
-    points, f, q = np.empty((MOST, 3)), np.empty(9), np.empty(9)
+    points, f, q = np.ones((MOST, 3)), np.ones(9), np.empty(9)
     for e in range(m):
         deepest[e] = depth[e].max()
         for turn in range(2 if over[e] > 0.0 else 1):  # ψ = k (⟨d⟩³ − ⟨d − δ⟩³)/6δ, or k ⟨d⟩²/2
-            for a in range(9):
+            for a in range(n):
                 q[a] = depth[e, a] - turn * over[e]
-            for g in range(patch(q, points)):
-                shape(points[g, 0], points[g, 1], f)
+            for g in range(patch(q, points) if n > 1 else int(q[0] > 0.0)):
+                if n > 1:
+                    shape(points[g, 0], points[g, 1], f)
                 d = k = 0.0
-                for a in range(9):
+                for a in range(n):
                     d += f[a] * q[a]
                     k += f[a] * stiffness[e, a]
                 deepest[e] = max(deepest[e], d + turn * over[e])
@@ -170,9 +171,9 @@ def integrate(
                 else:
                     psi, p, slope = 0.5 * k * d * d, k * d, k
                 energy[e] += psi
-                for a in range(9):
+                for a in range(n):
                     load[e, a] += p * f[a]
                     if tangent:
-                        for b in range(9):
+                        for b in range(n):
                             by[e, a, b] += slope * f[a] * f[b]
     return energy, load, by, deepest

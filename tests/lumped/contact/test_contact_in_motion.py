@@ -147,7 +147,7 @@ def test_a_press_does_its_work(integrator):
 
 @pytest.mark.nightly
 def test_probes_in_motion_are_on_cubics_over_a_ball():
-    """A third short of the place at rest, by the give of contact in motion, and on the cells that touch more."""
+    """A third short of the place at rest, by the give of contact in motion; on cells still more."""
     at, rise = (0.0733, 0.0867), 1.5e-3
     still = pressed_ball(at, rise)
     lift = still.obstacles[0].motion.replace(time=(0.0, 0.05))

@@ -62,7 +62,8 @@ class CellSurface:
 
     def second(self, ends: np.ndarray, pull: np.ndarray) -> np.ndarray:
         """Return Σ f·∂²a (m, q, 3, q, 3) by the places, of f on a (m, 8, 3)."""
-        mixed, both = across.second(*ends, pull)
+        step, d = ends
+        mixed, both = across.second(step, d, pull)
         by = np.stack([[np.zeros_like(both), mixed], [mixed.swapaxes(-1, -2), both]])
         return np.einsum("vkq,vwmkcd,wkr->mqcrd", self.ends, by, self.ends, optimize=True)
 

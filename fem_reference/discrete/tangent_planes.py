@@ -57,7 +57,8 @@ def first(vectors: np.ndarray) -> np.ndarray:
 
 def second(vectors: np.ndarray, pull: np.ndarray) -> np.ndarray:
     """Return Σ f·∂²a (m, 18, 3, 18, 3) by the vectors, of f on a (m, 18, 3)."""
-    mixed, both = across.second(*_at_nodes(vectors), pull.reshape(-1, 2, 9, 3))
+    slope, d = _at_nodes(vectors)
+    mixed, both = across.second(slope, d, pull.reshape(-1, 2, 9, 3))
     by = np.stack([[np.zeros_like(both), mixed], [mixed.swapaxes(-1, -2), both]])
     return np.einsum("kivj,vwekicd,kiwl->ejcld", LINEAR, by, LINEAR, optimize=True)
 

@@ -1,6 +1,6 @@
 """The vector a = −(v·d) d/|d|² that makes v + a normal to d, with its derivatives, of vectors (…, 3) each.
 
-With n = d/|d|² and J = ∂n/∂d, a = −(v·d) n = −(v·n) d.
+The derivatives are written in n = d/|d|² and J = ∂n/∂d: a = −(v·d) n = −(v·n) d.
 """
 
 from __future__ import annotations

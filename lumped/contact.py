@@ -117,7 +117,9 @@ class Contact(LatticeItem):
         self.full = self.full * (1.0 if at_corners else STIFFER)
         self.offset, areas = (0.5 + TOUCH) * self.thickness, self._lattice.cell_areas
         self.area = np.outer(areas[areas > 0.0], np.bincount(corners, minlength=len(r))) / len(corners)
-        within = 0.25 / len(self.groups) * self.area.sum(axis=1)[:, None, None]
+        within = (
+            0.25 / len(self.groups) * self.area.sum(axis=1)[:, None, None]
+        )  # by a part's dr ds, of −1 to 1
         self.sizes = self.area[:, self.groups] if at_corners else within
         self.shares = self.basis if self.bent else self.weights
 

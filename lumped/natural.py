@@ -14,8 +14,6 @@ The springs' laws take δg − δg₀ for δg and g₀ for g at rest, so that no
 resist strains of their natural sides. Derived for this project.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -63,10 +61,8 @@ def rates(
     (q, m, n, 6) of its constants and natural δg₀ by the cells' natural strain and curvature, xx, yy and xy;
     state: both, (rows, columns, 2, 2)."""
     no_springs = np.zeros((1, 0), int), np.zeros((1, 0, 1, 6))
-    return [
-        no_springs if springs is None else (springs.cells.T, springs.rates(*state))
-        for springs in _natural(lattice, families)
-    ]
+    every = _natural(lattice, families)
+    return [no_springs if one is None else (one.cells.T, one.rates(*state)) for one in every]
 
 
 @dataclass(frozen=True)

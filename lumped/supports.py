@@ -76,8 +76,7 @@ class Constraints:
 
     def nearest(self, u: np.ndarray) -> np.ndarray:
         """Return the unknowns (m,) whose T q is closest to u (n, 3): (TᵀT)⁻¹ Tᵀ u."""
-        unknowns: np.ndarray = self._normal_solve(self.transform.T @ u.ravel())
-        return unknowns
+        return self._normal_solve(self.transform.T @ u.ravel())
 
     @cached_property
     def _normal_solve(self) -> Callable[[np.ndarray], np.ndarray]:

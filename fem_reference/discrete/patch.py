@@ -7,15 +7,12 @@ function of r, smooth between the real parts of the roots of three polynomials: 
 (3t − t³) removes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from sheetbench.numerics.across import outer
 
-LINE = np.array(
-    [[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]]
-)  # coefficients of a parabola by its values
+# coefficients of a parabola by its values
+LINE = np.array([[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]])
 BERNSTEIN = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
 SUMS = np.eye(5)[np.add.outer(range(3), range(3)).ravel()]  # of products of coefficients, (9, 5)
 INNER, INNER_WEIGHTS = np.polynomial.legendre.leggauss(4)

@@ -3,8 +3,6 @@
 The derivatives are written in n = d/|d|² and J = ∂n/∂d: a = −(v·d) n = −(v·n) d.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 EYE = np.eye(3)

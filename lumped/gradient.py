@@ -44,6 +44,7 @@ from sheetbench.scenes.meaning.parameters import names_of, short_name
 
 FIELD = "cells."
 FORCES = "forces"
+TOGETHER = ("poisson", "thickness")
 FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
 
 
@@ -76,9 +77,12 @@ class Plain:
         return found
 
     def sides(self, name: str) -> Sides:
-        """Return `both_sides` of a parameter, made once."""
+        """Return `both_sides` of a parameter, made once; of ν and h together, as one pass finds all four."""
         if name not in self._sides:
-            self._sides[name] = both_sides(self.calibration, self.problem, name, self.calibrate)
+            even = self.calibration.cells is None and self.scene.material.poisson is not None
+            names = TOGETHER if even and name in TOGETHER else (name,)
+            sides = both_sides(self.calibration, self.problem, names, self.calibrate)
+            self._sides |= zip(names, sides, strict=True)
         return self._sides[name]
 
     def scaled_by(self, name: str) -> bool:
@@ -146,8 +150,7 @@ class Equilibrium:
     def names(self) -> list[str]:
         """Return the names of all derivatives."""
         scene = self.problem.scene
-        isotropic = scene.material.kind != "orthotropic" and not scene.layers
-        fields = [name for name in NUMBERS if isotropic or name != "poisson"]
+        fields = [name for name in NUMBERS if self.cells.isotropic or name != "poisson"]
         return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(scene)]
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
@@ -222,14 +225,19 @@ class Gradient(Mapping[str, Any]):
     def _by_constants(self) -> list[np.ndarray]:
         return self._of.complete.all_families.powers_by_constants(self._of.u, self.by_forces)
 
+    @cached_property
+    def _by_state(self) -> dict[str, np.ndarray]:
+        return self._of.cells.by_state(self._of.fields, self._of.complete, self._by_constants)
+
     def __getitem__(self, name: str) -> Any:
         of, name = self._of, short_name(name)
         if name == FORCES:
             return self.by_forces
         if name.startswith(FIELD):
             of.field(name)
-            at = of.fields, of.complete, self._by_constants, self.by_forces
-            return of.cells.powers(name.removeprefix(FIELD), *at)
+            if (field := name.removeprefix(FIELD)) in STATE:
+                return self._by_state[field]
+            return of.cells.by_number(field, of.fields, of.complete, self._by_constants, self.by_forces)
         field = FIELD + name
         if of.base.scaled_by(name) and field not in of.values:
             value = getattr(of.plain.scene.material, name)
@@ -257,9 +265,12 @@ def rates(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
     force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]; both: of `both_sides`."""
-    unknowns = problem.constraints.nearest(u - problem.prescribed(1.0))
     sides, over = both
-    found = []
+    (low, _), (high, _) = sides
+    if low.assembly is high.assembly and low.constraints is high.constraints and not (values or low.items):
+        force = (high.loads.force(u) - low.loads.force(u)) / over
+        return force, np.zeros_like(u), problem.reduce(force)
+    unknowns, found = problem.constraints.nearest(u - problem.prescribed(1.0)), []
     for changed, springs in sides:
         if values:
             changed = Equilibrium(Plain(changed.scene, springs), u, values).problem

@@ -240,7 +240,7 @@ def _inputs(
         probe = list(scene.probes)[number // 3]
         columns.append((f"{probe} f{'xyz'[number % 3]}", row, zero, zero))
     for edge in _bent_edges(scene):
-        both = both_sides(calibration, problem, f"curvature_{edge}")
+        (both,) = both_sides(calibration, problem, [f"curvature_{edge}"])
         force, g, _ = rates(problem, u, both)
         columns.append((f"{edge} curvature", force.ravel(), -drag @ g.ravel(), g.ravel()))
     for name, support in named(scene.supports).items():
@@ -253,7 +253,7 @@ def _inputs(
             columns.append((f"{name} {'xyz'[axis]}", -spring @ g, -drag @ g, g))
     bent = [of for of in scene.natural_states if of != "temperature"]
     for name in (f"{of}.{key}" for of in bent for key in ("kxx", "kyy", "kxy")):
-        pull, *_ = rates(problem, u, both_sides(calibration, problem, name))
+        pull, *_ = rates(problem, u, both_sides(calibration, problem, [name])[0])
         columns.append((name, pull.ravel(), zero, zero))
     names, *values = zip(*columns, strict=True)
     force, rate, displacement = (np.stack(value, axis=1) for value in values)

@@ -95,8 +95,8 @@ class Differentiable:
         scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
-            value = [float(values[name])]
-            ((scene, calibration),) = of_changed(scene, calibration, name, value, self._calibrate)
+            change = [(name, float(values[name]))]
+            ((scene, calibration),) = of_changed(scene, calibration, change, self._calibrate)
         base = self.plain if scene is self.scene else Plain(scene, calibration, self._calibrate)
         at = Equilibrium(base, self._unsolved.u, fields)
         near = None if at.problem.assembly.coupling is not None else near

@@ -17,7 +17,7 @@ with its stiffness and mass.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
@@ -198,48 +198,40 @@ class CellFields:
         """Return the derivatives of v·(f − f_int) by a field of numbers, of the complete lattice `assembly`;
         by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
         base = fields.get(name, self.base[name])
-        found = np.zeros(base.size)
-        if name in OF_SECTION:
-            of_springs, over = self._rates(name, fields, assembly)
-            for (cells, change), power in zip(of_springs, by, strict=True):
-                each = np.einsum("qmn,mn->qm", change, power[:, : change.shape[2]])
-                found -= np.bincount(cells.ravel(), each.ravel(), base.size) / over
-        found = found.reshape(base.shape)
+        found = np.zeros_like(base)
+        of_springs, over = self._rates(name, fields, assembly) if name in OF_SECTION else ([], found)
+        for (cells, change), power in zip(of_springs, by, strict=False):
+            each = np.einsum("qmn,mn->qm", change, power[:, : change.shape[2]])
+            found -= np.bincount(cells.ravel(), each.ravel(), base.size).reshape(base.shape) / over
         if name in ("density", "thickness") and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
             per_area = ratio(self.changed_section(fields).per_area, base)
-            found = found + per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
+            found += per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
         return found
 
     def by_state(self, fields: Fields, assembly: Assembly, by: list[np.ndarray]) -> dict[str, np.ndarray]:
         """Return the derivatives of v·(f − f_int) by the fields of STATE, as `by_number` does."""
-        state = [fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE]
+        strain, curvature = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
         flat = assembly.springs
         if assembly.natural is not None:
             flat = self.families_of(self.springs(fields)[0]).families
-        found = natural_powers(assembly.lattice, flat[:3], state, by[:3])
+        found = natural_powers(assembly.lattice, flat[:3], (strain, curvature), by[:3])
         return dict(zip(STATE, np.split(-found, 2, axis=-1), strict=True))
 
     def _rates(self, name: str, fields: Fields, assembly: Assembly) -> tuple[Shares, np.ndarray]:
         """Return the changes of springs `by_cells` with a field, and of the field; of ν and h together."""
-        if own := {one: fields[one] for one in fields.keys() & {*OF_SECTION, "strain"}}:
-            return self._changed((name,), own, assembly)[name]
-        if name not in self._kept:
-            together = ("poisson", "thickness") if self.isotropic and name != "young" else (name,)
-            self._kept |= self._changed(together, {}, assembly)
-        return self._kept[name]
-
-    def _changed(
-        self, names: Sequence[str], fields: Fields, assembly: Assembly
-    ) -> dict[str, tuple[Shares, np.ndarray]]:
-        base = {name: fields.get(name, self.base[name]) for name in names}
-        steps = {name: STEP * np.maximum(np.abs(base[name]), 0.1 * (name == "poisson")) for name in names}
-        ends = ({**fields, name: base[name] + by * steps[name]} for name in names for by in (1.0, -1.0))
-        springs, found = self.springs(*ends), {}
-        for name, high, low in zip(names, springs[::2], springs[1::2], strict=True):
-            over = np.where(steps[name] > 0.0, 2.0 * steps[name], 1.0).ravel()
-            found[name] = self.by_cells(high, assembly, fields, low), over
-        return found
+        fields = {one: fields[one] for one in fields.keys() & {*OF_SECTION, "strain"}}
+        kept = {} if fields else self._kept
+        if name not in kept:
+            names = ("poisson", "thickness") if self.isotropic and name != "young" else (name,)
+            base = {one: fields.get(one, self.base[one]) for one in names}
+            steps = {one: STEP * np.maximum(np.abs(of), 0.1 * (one == "poisson")) for one, of in base.items()}
+            ends = ({**fields, one: base[one] + by * steps[one]} for one in names for by in (1.0, -1.0))
+            springs = iter(self.springs(*ends))
+            for one, step in steps.items():
+                over = np.where(step > 0.0, 2.0 * step, 1.0)
+                kept[one] = self.by_cells(next(springs), assembly, fields, next(springs)), over
+        return kept[name]
 
     def by_cells(
         self,

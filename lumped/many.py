@@ -134,7 +134,7 @@ def _together(
     problem, assembly, band = sheet.problem, sheet.problem.assembly, sheet.problem.system.band
     base, of_cells = (
         sheet.base[YOUNG].ravel(),
-        sheet.plain.cells.by_cells(sheet.calibration.constants, assembly),
+        sheet.cells.by_cells(sheet.calibration.constants, assembly),
     )
     assert band is not None
     of_start, _ = banded.factored(problem.tangent(start, 1.0), band)

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -59,7 +58,7 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
 def powers(
     lattice: Lattice,
     families: Sequence[Family],
-    state: Sequence[np.ndarray],
+    state: tuple[np.ndarray, np.ndarray],
     by: Sequence[np.ndarray],
 ) -> np.ndarray:
     """Return the derivatives of a power by the cells' natural strain and curvature, xx, yy and xy, (rows,

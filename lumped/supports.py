@@ -34,7 +34,6 @@ from sheetbench.scenes import Scene, Support, held_axes, tilt_axes
 from sheetbench.scenes.meaning.kinematics import TurnedEdge, bent_or_tilted, shifts
 from sheetbench.scenes.objects.supports import named
 
-
 PLACES = {"motion": None, "tilt": 0.0, "curvature": 0.0}  # keys of supports that move masses and hold none
 
 

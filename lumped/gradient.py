@@ -60,10 +60,11 @@ class Equilibrium:
     values: Values = MappingProxyType({})
 
     def __init__(self, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None):
-        self.scene, self.calibration, self.calibrate, self._base = scene, calibration, calibrate, self
+        self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
         self.problem = self.plain = build_problem(scene, calibration)
         self.cells, self.u = CellFields(scene, calibration, self.plain.assembly), 0.0 * self.plain.loads.dead
         self.constants, self._sides = calibration.constants.names(), dict[str, Sides]()
+        self._parts = dict(vars(self))
 
     @classmethod
     def of(
@@ -86,8 +87,8 @@ class Equilibrium:
 
     def at(self, u: np.ndarray, values: Values = MappingProxyType({})) -> Equilibrium:
         """Return the derivatives at another equilibrium, with values of its own."""
-        other = copy(self._base)
-        other.u, other.values = u, values
+        other = object.__new__(type(self))
+        vars(other).update(self._parts, _parts=self._parts, u=u, values=values)
         if values:
             other.problem = other.with_values({})
         return other

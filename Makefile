@@ -11,7 +11,7 @@ RELEASED ?= python3.11 python3.12 python3.13
 packages = $(BIN)/uv pip install --quiet --python $(BIN)/python --constraint constraints.txt $(1) 2>/dev/null || \
            $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt $(1)
 
-.PHONY: docs docs-scene help install demo test check nightly kernels slow fuzz kills sizes catalogue verify tradeoff animations pictures \
+.PHONY: docs docs-scene help install demo ready test check nightly kernels slow fuzz kills sizes catalogue verify tradeoff animations pictures \
         bench mutants tests-of viewer wheel-check extras-check release-check lint clean
 help:
 	@echo "make demo      set up and compare both models on test 1 of the published study, Habibi et al. (files in $(OUT)/)"
@@ -68,10 +68,14 @@ demo test check nightly: export PYTHONDONTWRITEBYTECODE :=
 # the tests' processes are as many as processors are: BLAS's own threads would wait for each other, busily
 test check nightly: export OPENBLAS_NUM_THREADS := 1
 
-test: $(VENV)/testing lint kernels
+# the type checker has one process: kernels are compiled beside it
+ready: $(VENV)/testing
+	@$(MAKE) --no-print-directory --jobs --output-sync lint kernels
+
+test: ready
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
-check: $(VENV)/testing lint kernels
+check: ready
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m 'smoke and not nightly and not slow'
 
 # what type checkers read of `import sheetbench`

@@ -29,7 +29,7 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics import banded
 from sheetbench.numerics.aliasing import empty
 from sheetbench.numerics.banded import Band
-from sheetbench.numerics.options import njit
+from sheetbench.numerics.options import Pointer, njit, pointer
 from sheetbench.numerics.sparse_products import Rows, product, transposed_product
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene
@@ -159,7 +159,7 @@ def _together(
 def correct(
     start: np.ndarray,
     of_start: np.ndarray,
-    springs: SpringArrays,
+    springs: Pointer[SpringArrays],
     k: np.ndarray,
     layers: np.ndarray,
     middle: np.ndarray,
@@ -176,26 +176,28 @@ def correct(
     the factors of `start`, then by their own, and `done` where converged; rounding [N/m]: of forces, over
     the displacement."""
     n = len(band.order)
-    a, b, c = springs.links, springs.layers, springs.middle
+    of = springs.value
+    a, b, c = of.links, of.layers, of.middle
     for d in range(len(k)):
         arrays = SpringArrays(
             LinkArrays(a.nodes, a.offset, a.rest, k[d], a.slots),
             CellArrays(b.nodes, b.sides, b.rest, AreaAndStrains(layers[d]), b.slots),
             CellArrays(c.nodes, c.sides, c.rest, AreaAndStrains(middle[d]), c.slots),
-            springs.faces,
-            springs.blocks,
-            springs.mirror,
-            springs.diagonal,
+            of.faces,
+            of.blocks,
+            of.mirror,
+            of.diagonal,
         )
+        own = pointer(arrays)
         u, last, size = start.copy(), np.inf, np.sqrt(np.sum(loads[d] ** 2))
         factors, own_factors, fresh = of_start, False, False
         for _ in range(STEPS):
-            rows = transposed_product(free, (loads[d] - all_families.force(u, arrays)[1]).ravel(), n)
+            rows = transposed_product(free, (loads[d] - all_families.force(u, own)[1]).ravel(), n)
             imbalance = np.sqrt(np.sum(rows * rows))
             converged = imbalance <= max(TOLERANCE * size, rounding * np.abs(u).max())
             slow = not fresh and not imbalance <= (0.1 if own_factors else 0.5) * last
             if slow or (not own_factors and imbalance <= NEAR * size) or (converged and not own_factors):
-                blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), arrays)
+                blocks = all_families.tangent(u, none, False, 1.0, 1.0, empty(0), own)
                 factors = banded.stored(blocks, band)
                 if not banded.factor(factors, n, band.width):
                     break

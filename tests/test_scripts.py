@@ -107,7 +107,7 @@ SMALLER = {
     "promises": {"promises --out": "promises --part bars --scenes 1 --model plate --out"},
     "reproduce": {"reproduction --out": "reproduction --elements 4 --out"},
 }
-TESTED = "install test check nightly kernels slow lint fuzz kills"
+TESTED = "install test check nightly kernels slow ready lint fuzz kills"
 FETCHING = "docs mutants viewer wheel-check extras-check release-check codes trials"
 OF_ONE_SIZE = "central master-curves rubber stability standing suite"  # of some minutes
 ELSEWHERE = set(f"{TESTED} {FETCHING} {OF_ONE_SIZE}".split())

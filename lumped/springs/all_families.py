@@ -27,7 +27,7 @@ from lumped.springs.links import LinkArrays
 from sheetbench.errors import BadInput
 from sheetbench.numerics.aliasing import zeros
 from sheetbench.numerics.cache import cached
-from sheetbench.numerics.options import njit, typed
+from sheetbench.numerics.options import Pointer, njit, pointer, typed
 from sheetbench.scenes import SpringSet
 from sheetbench.scenes.objects.springs import DamperSet
 
@@ -75,7 +75,7 @@ class AllFamilies:
         self._others = [family for family in self.families if isinstance(family, DirectionalLinks)]
         arrays = [family.arrays for family in self._central]
         where = pattern.blocks, pattern.mirror, pattern.diagonal
-        self.springs = typed(SpringArrays._make([*arrays, *where]))
+        self.springs = pointer(typed(SpringArrays._make([*arrays, *where])))
         self.all_links = [family for family in self.families if isinstance(family, Links)]
         self.links, self._pattern, self.conservative = self.all_links[0], pattern, not self._others
         self.any_strain = any(isinstance(one, SpringCells) and one.law is RUBBER for one in families)
@@ -170,24 +170,25 @@ class AllFamilies:
 
 
 @njit
-def force(u: np.ndarray, springs: SpringArrays) -> tuple[float, np.ndarray]:
+def force(u: np.ndarray, springs: Pointer[SpringArrays]) -> tuple[float, np.ndarray]:
     """Return the energy [J] and the internal force (n, 3) [N]."""
-    out = zeros(u.shape)
-    energy = links.add_forces(u, springs.links, out)
-    energy += cells.add_forces(u, springs.layers, out)
-    energy += cells.add_forces(u, springs.middle, out)
-    energy += cells.add_forces(u, springs.faces, out)
+    out, of = zeros(u.shape), springs.value
+    energy = links.add_forces(u, of.links, out)
+    energy += cells.add_forces(u, of.layers, out)
+    energy += cells.add_forces(u, of.middle, out)
+    energy += cells.add_forces(u, of.faces, out)
     return energy, out
 
 
 @njit(inline="always")
-def extrapolated(u: np.ndarray, step: np.ndarray, springs: SpringArrays) -> Stresses:
+def extrapolated(u: np.ndarray, step: np.ndarray, springs: Pointer[SpringArrays]) -> Stresses:
     """Return the stresses that the linearisation at u predicts after a step (n, 3) [m]."""
+    of = springs.value
     return (
-        links.extrapolated(u, step, springs.links, measures(springs.layers.law) == 3),
-        cells.extrapolated(u, step, springs.layers),
-        cells.extrapolated(u, step, springs.middle),
-        cells.extrapolated(u, step, springs.faces),
+        links.extrapolated(u, step, of.links, measures(of.layers.law) == 3),
+        cells.extrapolated(u, step, of.layers),
+        cells.extrapolated(u, step, of.middle),
+        cells.extrapolated(u, step, of.faces),
     )
 
 
@@ -199,26 +200,27 @@ def tangent(
     share: float,
     scale: float,
     inertia: np.ndarray,
-    springs: SpringArrays,
+    springs: Pointer[SpringArrays],
 ) -> np.ndarray:
     """Return scale × blocks (b, 3, 3) [N/m] of the tangent with given stresses, or if they are empty with the
     share of the stresses at u, and with M + share (D − M), and on the diagonal `inertia` (n,) [N/m]. The
     tangent is symmetric: blocks above the diagonal are copies."""
-    blocks = zeros((springs.blocks, 3, 3))
-    strain = extrapolated and measures(springs.layers.law) == 3
-    links.add_tangent(u, springs.links, stress[0], strain, share, blocks)
-    cells.add_tangent(u, springs.layers, stress[1], extrapolated, share, blocks)
-    cells.add_tangent(u, springs.middle, stress[2], extrapolated, share, blocks)
-    cells.add_tangent(u, springs.faces, stress[3], extrapolated, share, blocks)
+    of = springs.value
+    blocks = zeros((of.blocks, 3, 3))
+    strain = extrapolated and measures(of.layers.law) == 3
+    links.add_tangent(u, of.links, stress[0], strain, share, blocks)
+    cells.add_tangent(u, of.layers, stress[1], extrapolated, share, blocks)
+    cells.add_tangent(u, of.middle, stress[2], extrapolated, share, blocks)
+    cells.add_tangent(u, of.faces, stress[3], extrapolated, share, blocks)
     if scale != 1.0:
         entries = blocks.ravel()
         for e in range(len(entries)):
             entries[e] *= scale
     for i in range(len(inertia)):
         for q in range(3):
-            blocks[springs.diagonal[i], q, q] += inertia[i]
-    for k in range(len(springs.mirror)):
-        below, above = blocks[np.uint64(springs.mirror[k, 0])], blocks[np.uint64(springs.mirror[k, 1])]
+            blocks[of.diagonal[i], q, q] += inertia[i]
+    for k in range(len(of.mirror)):
+        below, above = blocks[np.uint64(of.mirror[k, 0])], blocks[np.uint64(of.mirror[k, 1])]
         for q in range(3):
             for r in range(3):
                 above[q, r] = below[r, q]

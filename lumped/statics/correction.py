@@ -10,7 +10,7 @@ import numpy as np
 from lumped.springs import all_families
 from lumped.springs.all_families import SpringArrays, Stresses
 from sheetbench.numerics.aliasing import empty
-from sheetbench.numerics.options import njit
+from sheetbench.numerics.options import Pointer, njit
 from sheetbench.numerics.sparse_products import Rows, product, transposed_product
 
 
@@ -48,7 +48,7 @@ def advance(
     u: np.ndarray,
     step: np.ndarray,
     moved: np.ndarray,
-    springs: SpringArrays,
+    springs: Pointer[SpringArrays],
     load: np.ndarray,
     load_factor: float,
     held: np.ndarray,

@@ -228,7 +228,9 @@ def test_the_weight_strain_is_that_of_the_last_factor():
     assert "stretched by 0.6" in outside_model(hanging(0.0), 0.6)
 
 
-@pytest.mark.parametrize("model", ["lumped", "plate", "shell", "solid"])
+@pytest.mark.parametrize(
+    "model", ["lumped", pytest.param("plate", marks=pytest.mark.nightly), "shell", "solid"]
+)
 def test_every_model_judges_the_weight_alike(model):
     light, heavy = solved(hanging(1e-3), model), solved(hanging(0.2), model)
     assert light.status is Status.CONVERGED

@@ -11,11 +11,12 @@ from sheetbench.scenes import Clamped, Pressure, load
 
 def arrays(problem):
     """All that a lattice is solved with."""
-    springs = [part for family in problem.assembly.all_families.springs[:4] for part in family]
-    families = [part.constants if isinstance(part, tuple) else part for part in springs]
+    families = problem.assembly.all_families.families[:4]
+    springs = [part for family in families if len(family) for part in family.arrays]
+    constants = [part.constants if isinstance(part, tuple) else part for part in springs]
     constraints = problem.constraints
     return [
-        *families,
+        *constants,
         *constraints.transform_arrays,
         constraints.held,
         constraints.prescribed(0.5),

@@ -264,7 +264,7 @@ SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" vi
 <text x="0" y="0">a fin</text></g></svg>"""
 
 
-@pytest.mark.parametrize("kind", ["svg", "dxf", "dxf of lines"])
+@pytest.mark.parametrize("kind", ["svg", "dxf", pytest.param("dxf of lines", marks=pytest.mark.nightly)])
 def test_an_outline_with_holes_is_read_from_a_drawing(tmp_path, kind):
     """60 × 40 mm: a rectangle of 60 × 30 and a parabola of height 10; a hole of radius 6."""
     pytest.importorskip("svgelements" if kind == "svg" else "ezdxf")

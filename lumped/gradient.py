@@ -6,10 +6,11 @@ tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/d�
 
     dJ/dθ = λ · ∂(f − f_int)/∂θ + ∂J/∂u · dg/dθ                                          (`pullback`).
 
-The derivatives by fields over the cells (`lumped.cell_fields`) are a sparse product of λ · ∂f_int/∂(constants
-of the springs), one loop with each law's own derivatives; by E and ρ of an even sheet they are its sums.
+The derivatives by fields over the cells (`lumped.cell_fields`) are sums of λ · ∂f_int/∂(constants of the
+springs), one loop with each law's own derivatives; by E and ρ of an even sheet they are the fields' sums.
 Other parameters of the scene have ∂R/∂θ as a central difference of the residual at fixed q
-(`lumped.parameter_sides`). Masses that touch an obstacle go on touching it.
+(`lumped.parameter_sides`), of the loads where nothing else changes. Masses that touch an obstacle go on
+touching it.
 
 Names: the parameters of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …;
 "material.young" and "sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, …

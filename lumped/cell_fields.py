@@ -21,7 +21,6 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from types import MappingProxyType
 
 import numpy as np
 
@@ -233,13 +232,7 @@ class CellFields:
                 kept[one] = self.by_cells(next(springs), assembly, fields, next(springs)), over
         return kept[name]
 
-    def by_cells(
-        self,
-        springs: Springs,
-        assembly: Assembly,
-        fields: Fields = MappingProxyType({}),
-        below: Springs | None = None,
-    ) -> Shares:
+    def by_cells(self, springs: Springs, assembly: Assembly, fields: Fields, below: Springs | None) -> Shares:
         """Return, for each kind of springs, the cells beside each, (q, m), and their shares (q, m, n) of its
         constants, or of their differences from springs `below`."""
         lattice, none = assembly.lattice, (np.empty((1, 0), int), np.empty((1, 0, 1)))

@@ -30,7 +30,7 @@ from lumped.pattern import SHARED_UP_TO, MassPattern
 from sheetbench.numerics.cache import cached, frozen
 from sheetbench.numerics.reduced_system import ReducedSystem, reduced
 from sheetbench.numerics.sparse_products import Rows, csr_arrays, product, transposed_product
-from sheetbench.scenes import Scene, Support, held_axes, tilt_axes
+from sheetbench.scenes import Scene, Sheet, Support, held_axes, tilt_axes
 from sheetbench.scenes.meaning.kinematics import TurnedEdge, bent_or_tilted, shifts
 from sheetbench.scenes.objects.supports import named
 
@@ -60,8 +60,8 @@ class Constraints:
 
     def having(self, **parts: Any) -> Constraints:
         """Return constraints with an equal transform, whose arrays are shared."""
-        vars(self)["transform_arrays"], other = self.transform_arrays, copy(self)
-        vars(other).update(parts)
+        arrays, other = self.transform_arrays, copy(self)
+        vars(other).update(parts, transform_arrays=arrays)
         return other
 
     def turned(self, load_factor: float) -> np.ndarray:
@@ -138,27 +138,33 @@ class Constraints:
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:
     """Return the constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a
     linear map of the actuator's rows. An edge moved rigidly is held by the motion, not by supports.
-    Without actuators on a small lattice, the transform of supports that move, tilt or bend otherwise is
-    cached."""
-    changes = [
-        {key: PLACES[key] for key in PLACES if key in type(one).model_fields} for one in scene.supports
-    ]
-    still = tuple(one.model_copy(update=of) for one, of in zip(scene.supports, changes, strict=True))
-    found, supports = _constrain(still, reached_parts(scene), lattice, coupling), tuple(scene.supports)
+    Constraints without actuators on a small lattice are cached, and their transform apart from where supports
+    move, tilt and bend."""
+    return _constrain(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
+
+
+def _size(*given: Any) -> float:
+    *_, lattice, coupling = given
+    return math.inf if coupling else float(lattice.mass_count)
+
+
+@cached(last=16, most=SHARED_UP_TO, size=_size)
+def _constrain(
+    supports: tuple[Support, ...], reached: Reach, sheet: Sheet, lattice: Lattice, coupling: Coupling | None
+) -> Constraints:
+    places = [{key: PLACES[key] for key in PLACES if key in type(one).model_fields} for one in supports]
+    still = tuple(one.model_copy(update=of) for one, of in zip(supports, places, strict=True))
+    found = _constrain_still(still, reached, lattice, coupling)
     shift = np.zeros(found.held.shape)
     for moved in shifts(supports):
         masses = found.holders[moved.support][0]
         for axis, distance in zip(moved.axes, moved.displacement, strict=True):
             shift[masses, axis] = distance
-    return found.having(driven=bent_or_tilted(supports, scene.sheet), shift=shift)
+    return found.having(driven=bent_or_tilted(supports, sheet), shift=shift)
 
 
-@cached(
-    last=16,
-    most=SHARED_UP_TO,
-    size=lambda _supports, _reached, lattice, coupling: math.inf if coupling else lattice.mass_count,
-)
-def _constrain(
+@cached(last=16, most=SHARED_UP_TO, size=_size)
+def _constrain_still(
     supports: tuple[Support, ...], reached: Reach, lattice: Lattice, coupling: Coupling | None
 ) -> Constraints:
     moved = np.zeros(lattice.mass_count, dtype=bool) if coupling is None else coupling.moved

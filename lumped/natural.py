@@ -67,9 +67,8 @@ def powers(
     found = np.zeros((lattice.cell_areas.size, 6))
     for springs, power in zip(_natural(lattice, families), by, strict=True):
         if springs is not None:
-            each = springs.powers(*state, power).reshape(-1, 6)
-            for out, of in zip(found.T, each.T, strict=True):
-                out += np.bincount(springs.cells.ravel(), of, len(out))
+            for out, of in zip(found.T, springs.powers(*state, power), strict=True):
+                out += np.bincount(springs.cells.ravel(), of.ravel(), len(out))
     return found.reshape(*lattice.cell_areas.shape, 6)
 
 
@@ -120,18 +119,19 @@ class _Natural:
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
     def powers(self, strain: np.ndarray, k: np.ndarray, power: np.ndarray) -> np.ndarray:
-        """Return the derivatives (m, q, 6); see `powers` above."""
+        """Return the derivatives (6, m, q); see `powers` above."""
         plan, growth = self._growth(strain, k)
-        found, by = np.zeros((*self.cells.shape, 6)), power[:, None, -self.sides.shape[2] :]
+        found, by = np.zeros((6, *self.cells.shape)), power[:, None, -self.sides.shape[2] :]
         for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
             b = other + other_growth
             xx, yy, xy, yx = ((a[..., i] * b[..., j] * by).sum(axis=-1) for i, j in COMPONENTS)
-            by_strain = np.stack([xx, yy, xy + yx], axis=-1)
-            found += np.concatenate([by_strain, -z[:, None, None] * by_strain], axis=-1)
-        found *= self.shares[..., None]
+            for number, of in enumerate((xx, yy, xy + yx)):
+                found[number] += of
+                found[number + 3] -= z[:, None] * of
+        found *= self.shares
         if isinstance(self.family, SpringCells):
             by_constants = self._of_stiffness(strain)
-            found[:, 0, :3] += np.einsum("cnw,cn->cw", by_constants, power[:, : by_constants.shape[1]])
+            found[:3, :, 0] += np.einsum("cnw,cn->wc", by_constants, power[:, : by_constants.shape[1]])
         return found
 
     def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:

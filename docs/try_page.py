@@ -20,11 +20,12 @@ from sheetbench import scenes
 from sheetbench.scenes import Scene
 
 HERE = Path(__file__).parent / "try"
+STYLE = Path(__file__).parents[1] / "comparisons" / "live" / "page" / "live.css"
 SCENES = ("two-edges-clamped", "one-edge-clamped")
 THICKNESSES = (0.002, 0.003, 0.004, 0.006)  # m
 LOADS = (0.25, 0.5, 1.0, 2.0, 4.0)  # g/E over the scene's
-POINTS = 5  # along a side, that can be dragged
-EXPORTS = ("sheet_reset", "sheet_step", "sheet_set", "sheet_get", "SHEET", "SHEET_REST")
+POINTS = 9  # masses along a side, that can be dragged
+EXPORTS = ("sheet_reset", "sheet_step", "sheet_set", "SHEET", "SHEET_REST")
 COMPILER = [sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-freestanding", "-O3", "-nostdlib", "-s"]
 COMPILER += ["-Dsqrt=__builtin_sqrt", "-Wl,--no-entry", *(f"-Wl,--export={name}" for name in EXPORTS)]
 
@@ -53,21 +54,16 @@ def answers() -> dict[str, list[float]]:
 
 def build(folder: Path) -> str:
     """Write the page with its programs to a folder; return their number, or the reason for none."""
-    from comparisons.codes.onefile import program
-    from comparisons.models.resolve import resolve
-    from comparisons.models.spec import Lattice
-
     shutil.copytree(HERE, folder, dirs_exist_ok=True)
+    shutil.copy(STYLE, folder)
     if find_spec("ziglang") is None:
         return "no compiler: pip install ziglang, then make docs"
     for name, thickness in product(SCENES, THICKNESSES):
-        scene, out = scene_of(name, thickness), folder.resolve() / f"{name}-{1e3 * thickness:g}.wasm"
-        springs = resolve(scene, Lattice(9), "springs", scene_springs=False).calibrated([scene])
-        texts = program(scene, springs, steps=20).texts
+        out = folder.resolve() / f"{name}-{1e3 * thickness:g}.wasm"
         with tempfile.TemporaryDirectory() as place:
-            Path(place, "sheet.h").write_text(texts["sheet.h"], encoding="utf-8")
-            Path(place, "sheet.c").write_text(texts["sheet.c"] + "sheet SHEET;\n", encoding="utf-8")
-            subprocess.run([*COMPILER, "sheet.c", "-o", str(out)], cwd=place, check=True)
+            sb.calibrate(scene_of(name, thickness), grid=POINTS, for_="c", out=place)
+            Path(place, "room.c").write_text('#include "sheet.h"\nsheet SHEET;\n')
+            subprocess.run([*COMPILER, "sheet.c", "room.c", "-o", out], cwd=place, check=True)
     return f"{len(SCENES) * len(THICKNESSES)} lattices"
 
 

@@ -3,8 +3,6 @@
 `solve(scene, model="shell", elements=16)` answers with a `Solution`; models are loaded when first requested.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from inspect import Parameter, signature

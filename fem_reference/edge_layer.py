@@ -14,8 +14,6 @@ energy is twist, less.
 Lengths in metres.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 

@@ -12,8 +12,6 @@ positive definite; where it is not, it is factored another way, which takes abou
 on a busy one.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from sheetbench.answers.size import Size, factors

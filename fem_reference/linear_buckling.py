@@ -3,11 +3,9 @@
 The plate's strains are linear, so that its stiffness does not depend on the load.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
-from fem_reference.discrete.static import Static
+from fem_reference.discrete.static import Static, StaticState
 from fem_reference.sheets import SHEETS
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.modes import STILL, Buckling, require_flat_and_dead
@@ -58,13 +56,11 @@ def buckling(scene: AnyScene, model: str = "shell", elements: Elements = 16, cou
     started, counts = now(), divisions(scene.sheet, elements)
     sheet = SHEETS[model](scene, counts, law=scene.material.law or STRAIN_LAW)
     smallest = STILL * max(scene.sheet.lengths)
-    load_factors, states = buckling_modes(
-        Static(sheet),
-        sheet.solver(),
-        lambda state: sheet.middles(sheet.displacement(state.q)),
-        count,
-        smallest,
-    )
+
+    def middles(state: StaticState) -> np.ndarray:
+        return sheet.middles(sheet.displacement(state.q))
+
+    load_factors, states = buckling_modes(Static(sheet), sheet.solver(), middles, count, smallest)
     shapes = [sheet.displacement(state.q) for state in states]
     return Buckling(
         model=model,

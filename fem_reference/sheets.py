@@ -106,7 +106,7 @@ class Division(NamedTuple):
 
     @property
     def graded(self) -> bool:
-        """Whether the elements of a plate or shell are finer towards the edges."""
+        """Return whether the elements of a plate or shell are finer towards the edges."""
         return bool(self.options.get("graded", True))
 
     def coarser(self) -> Division | None:

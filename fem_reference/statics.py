@@ -6,8 +6,6 @@ reports. Past limit points under conservative loads the path goes on (see `pseud
 the load factors at which the sheet snapped.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial

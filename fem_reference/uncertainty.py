@@ -38,8 +38,6 @@ Sources: Roache, J. Fluids Eng. 116 (1994) 405–413; Celik et al., J. Fluids En
 ASME V&V 20-2009; Eça & Hoekstra, J. Comput. Phys. 262 (2014) 104–130 (all pairs). Lengths in metres.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
@@ -180,15 +178,8 @@ def estimate(
         change = np.where(trusted, step / (ratio ** np.where(trusted, order, 1.0) - 1.0), 0.0)
     error = _by_pairs(answers, sizes, field_order) + _by_layer(answers, layers)
     bar = weight * error + neighbours * _relative(error, fine) * np.abs(fine)
-    return Uncertainty(
-        sizes=tuple(sizes),
-        answer=fine,
-        extrapolated=np.where(rounding, fine, fine + change),
-        order=order,
-        bar=np.where(rounding, spread, bar),
-        trusted=trusted,
-        converging=converging,
-    )
+    bar, extrapolated = np.where(rounding, spread, bar), np.where(rounding, fine, fine + change)
+    return Uncertainty(tuple(sizes), fine, extrapolated, order, bar, trusted, converging)
 
 
 def _by_pairs(answers: Sequence[np.ndarray], sizes: Sequence[float], order: float) -> np.ndarray:

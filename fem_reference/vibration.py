@@ -20,8 +20,6 @@ Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's
 payloads, on the mid-surface and the director (`surface.carried`). SI units.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -35,44 +33,24 @@ from fem_reference.surface.mesh import Elements
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
 from sheetbench.clock import now
-from sheetbench.errors import BadInput, Impossible, require_choice
+from sheetbench.errors import BadInput, require_choice
 from sheetbench.numerics.continuation.stability import require_stable
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, free_rigid_motions, require_static, scene_of
 
 REACH = 0.375  # share of the elements that are graded
-COINCIDENT = 1e-6  # largest relative difference of coincident frequencies
 
 
 @dataclass(frozen=True, repr=False)
 class ReferenceModes(NaturalModes):
     """Natural modes of a reference; shapes at all nodes, φᵀ M φ = 1."""
 
+    no_gradient = "for plate and shell without a section, not for {0.label}"
     label: str
     settings: dict[str, Any]
     solve_seconds: float
     sample: Callable[[np.ndarray], np.ndarray]
-    gradient_of: Callable[[int], Any] | None = None
-
-    def sensitivity(self, number: int) -> Any:
-        """Return df/dθ [Hz per unit] by parameter name of the mode of a number, the first being 1
-        (`mode_sensitivity`). Raises Impossible for the solid, where two frequencies coincide, and for the
-        last mode computed."""
-        if self.gradient_of is None:
-            raise Impossible(
-                f"derivatives of frequencies: for plate and shell without a section, not for {self.label}"
-            )
-        if not 1 <= number < len(self.frequencies):
-            raise Impossible(
-                f"mode {number}: derivatives need the next mode: choose 1 to {len(self.frequencies) - 1}"
-            )
-        frequency = self.frequencies[number - 1]
-        coincident = np.abs(self.frequencies - frequency) <= COINCIDENT * frequency
-        if coincident.sum() > 1:
-            numbers = " and ".join(str(n + 1) for n in np.flatnonzero(coincident))
-            raise Impossible(f"modes {numbers} coincide: a single frequency of them has no derivative")
-        return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""

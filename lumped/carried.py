@@ -11,8 +11,6 @@ the area:
 which the layers share; its rows add up to zero, so that it has no weight.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.sparse as sp
 

@@ -5,8 +5,6 @@ and resists the rate of the spring's measure. Loads and supports have their valu
 load.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -293,11 +291,8 @@ def _holds(problem: Problem, number: np.ndarray) -> tuple[Hold, ...]:
 
 def _differences(scene: Scene) -> tuple[str, ...]:
     """Return sentences about parts of the scene that the arrays leave out."""
-    moving = [
-        name if support.edge is None else f"the support on edge {name}"
-        for name, support in named(scene.supports).items()
-        if support.motion is not None
-    ]
+    supports = [(name, one.edge) for name, one in named(scene.supports).items() if one.motion is not None]
+    moving = [name if edge is None else f"the support on edge {name}" for name, edge in supports]
     moving += [name for name, body in scene.named_obstacles().items() if body.motion is not None]
     loads = [*scene.loads, *([scene.gravity] if scene.gravity is not None else [])]
     changes = [f"{name} moves over time; the files have its last place" for name in moving]

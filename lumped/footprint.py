@@ -10,8 +10,6 @@ time and takes about half. Seconds: to 0.25, 1.1, 6 and 30 s for 33, 65, 129 and
 core; the whole path takes about twice as long, and a core that is shared up to three times.
 """
 
-from __future__ import annotations
-
 from sheetbench.answers.size import Size, factors
 from sheetbench.scenes.objects.grid import Grid
 

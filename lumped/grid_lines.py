@@ -13,8 +13,6 @@ lines between in proportion, so that rims, slits and clamps end where cells do. 
 a mean cell to one further out has no line; with too few lines for all sides no line is moved.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

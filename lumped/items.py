@@ -5,8 +5,6 @@ empty tuple. Displacements, velocities and forces are (n, 3) [m], [m/s], [N]; fo
 gradient of the energy. `Drive` is the load factor or the time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Protocol
 

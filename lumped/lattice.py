@@ -158,9 +158,9 @@ class Lattice:
         links = self.links._replace(offset=offset, rest_length=np.linalg.norm(offset, axis=1))
         positions = frozen(self.positions * by)
         own = {"layer_distance": layer_distance, "per_area": per_area}
-        found = replace(self, positions=positions, links=links, **own)  # type: ignore[arg-type]
-        vars(found).update((name, of) for name, of in vars(self).items() if name in PLANAR)
-        return found
+        moved = replace(self, positions=positions, links=links, **own)  # type: ignore[arg-type]
+        vars(moved).update((name, of) for name, of in vars(self).items() if name in PLANAR)
+        return moved
 
     def columns(self) -> np.ndarray:
         """Return the numbers of the masses by plan position, (ny, nx, layers)."""

@@ -21,8 +21,6 @@ Source: e.g. Craig and Kurdila, Fundamentals of Structural Dynamics, 2006, on mo
 correction.
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -96,8 +94,7 @@ class Linear:
     def jacobian(self) -> np.ndarray:
         """Static response dy/dw, (outputs, inputs): one adjoint solve an output, Kᵀ a = Gᵀ."""
         adjoint = splu(sp.csc_array(self.stiffness.T)).solve(self.output.T)
-        response: np.ndarray = adjoint.T @ self.force + self.direct
-        return response
+        return adjoint.T @ self.force + self.direct
 
     def state_space(self, modes: int | None = MODES) -> StateSpace:
         """Return the state space of the lowest modes, of all for None. Raises BadInput for more modes than

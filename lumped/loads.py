@@ -14,8 +14,6 @@ Follower loads have unsymmetric tangents, all but pressure on a sheet whose edge
 (`scenes.encloses_volume`), which has a potential; see e.g. Schweizerhof and Ramm (1984).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -44,8 +44,6 @@ Source: Gregory's and the corrected trapezoidal rule: Hildebrand, Introduction t
 the form for two motions derived for this project (docs/theory.md).
 """
 
-from __future__ import annotations
-
 from typing import Literal
 
 import numpy as np
@@ -148,8 +146,7 @@ def _layer_shares(thickness: float, lattice: Lattice) -> np.ndarray:
     heights = lattice.positions[:layers, 2]
     square = float(heights @ heights)
     rotary = 1.0 / layers - thickness**2 / (12.0 * square)
-    shares: np.ndarray = np.eye(layers) / layers - rotary * np.outer(heights, heights) / square
-    return shares
+    return np.eye(layers) / layers - rotary * np.outer(heights, heights) / square
 
 
 def _free_edges(scene: Scene, lattice: Lattice) -> frozenset[str]:

@@ -90,9 +90,9 @@ def _of_columns(lattice: Lattice, rows: np.ndarray, over: np.ndarray, shares: np
     points = np.broadcast_to(np.arange(len(rows))[:, None, None, None], nodes.shape)
     each = np.broadcast_to(shares[..., None] / layers, nodes.shape)
     entries = (each.ravel(), (points.ravel(), nodes.ravel()))
-    found = sp.csr_array(sp.coo_array(entries, shape=(len(rows), lattice.mass_count)))
-    found.eliminate_zeros()
-    return found
+    matrix = sp.csr_array(sp.coo_array(entries, shape=(len(rows), lattice.mass_count)))
+    matrix.eliminate_zeros()
+    return matrix
 
 
 def _near_rims(
@@ -154,8 +154,8 @@ def _corners(per_area: np.ndarray, row: int, column: int) -> tuple[np.ndarray, n
 
     cell = np.zeros(per_area.shape, dtype=bool)
     cell[row, column] = True
-    found = binary_dilation(cell, iterations=REACH, mask=per_area > 0.0)
-    rows, over = np.nonzero(_around(found))
+    reached = binary_dilation(cell, iterations=REACH, mask=per_area > 0.0)
+    rows, over = np.nonzero(_around(reached))
     return rows, over
 
 

@@ -20,8 +20,6 @@ one-point sheared lattice exact for cubic deflections; of unlike layers D − B 
 Stiffness per length: A, S [N/m], B [N], D [N·m].
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Any
@@ -53,19 +51,19 @@ class Moduli:
 
     @property
     def oblique(self) -> np.ndarray:
-        """Whether stretching along the sides shears, (…): fibres are at an angle to them."""
+        """Return whether stretching along the sides shears, (…): fibres are at an angle to them."""
         forms = self.membrane, self.bending, self.mixed
         skew = [np.abs(form[..., :2, 2]).max(axis=-1) > ROUNDING * np.abs(form[..., 0, 0]) for form in forms]
         return np.any(skew, axis=0)
 
     @property
     def free_bending(self) -> np.ndarray:
-        """D − B A⁻¹ B."""
+        """Return D − B A⁻¹ B."""
         return free_bending(self.membrane, self.mixed, self.bending)
 
     @property
     def free_shear(self) -> np.ndarray:
-        """S along x and y (…, 2) where no force shears the other way."""
+        """Return S along x and y (…, 2) where no force shears the other way."""
         return free(self.shear, self.coupling)
 
     def named(self, square: bool, oblique: bool = False, mixed: bool = False) -> dict[str, np.ndarray]:
@@ -73,9 +71,8 @@ class Moduli:
         a, d, s = self.membrane, self.bending, self.shear
         forms = {"D": d, "A": a} | ({"B": self.mixed} if mixed else {})
         places = {"11": (0, 0), "12": (0, 1), "66": (2, 2)}
-        names = {
-            f"{kind}{ij}": form[..., i, j] for kind, form in forms.items() for ij, (i, j) in places.items()
-        }
+        each = [(kind, form, *place) for kind, form in forms.items() for place in places.items()]
+        names = {f"{kind}{ij}": form[..., i, j] for kind, form, ij, (i, j) in each}
         if oblique:
             names |= {f"{kind}{n + 1}6": form[..., n, 2] for kind, form in forms.items() for n in range(2)}
         if square:
@@ -149,15 +146,15 @@ def of_cells(springs: Springs, sides: np.ndarray, layers: int) -> Moduli:
 def of_springs(springs: SpringSet, spacing: tuple[float, float, float], layers: int) -> Moduli:
     """Return the moduli of an interior patch of a lattice with equal springs in all cells."""
     read = replace(Springs.read(springs), layer_distance=spacing[2])
-    found = of_cells(read, np.array([[spacing[:2]]]), layers)
-    return Moduli(*(part[0, 0] for part in vars(found).values()))
+    of_cell = of_cells(read, np.array([[spacing[:2]]]), layers)
+    return Moduli(*(part[0, 0] for part in vars(of_cell).values()))
 
 
 def _of_links(form: np.ndarray) -> np.ndarray:
     """Return the form (…, 3, 3) over (x, y, xy) of links from their form over (x, y, z)."""
-    found = np.zeros_like(form)
-    found[..., :2, :2], found[..., 2, 2] = form[..., :2, :2], form[..., 0, 1]
-    return found
+    central = np.zeros_like(form)
+    central[..., :2, :2], central[..., 2, 2] = form[..., :2, :2], form[..., 0, 1]
+    return central
 
 
 def _in_plane(springs: Springs, cells: str) -> np.ndarray:

@@ -14,8 +14,6 @@ The springs' laws take δg − δg₀ for δg and g₀ for g at rest, so that no
 resist strains of their natural sides. Derived for this project.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 

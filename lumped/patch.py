@@ -19,9 +19,8 @@ _T, _W = np.polynomial.legendre.leggauss(16)
 ACROSS, ACROSS_WEIGHTS = 0.5 * (3.0 * _T - _T**3), 1.5 * (1.0 - _T**2) * _W
 MOST = 2 * 16 * 4 * 9  # points of a patch
 HALVINGS = 52
-POWERS = np.array(
-    [[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]]
-)  # of a parabola by values at −1, 0, 1
+# of a parabola by values at −1, 0, 1
+POWERS = np.array([[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]])
 BERNSTEIN = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
 
 

@@ -1,7 +1,5 @@
 """Block sparsity of a lattice's matrices: pairs of masses that act on each other, and their 3×3 blocks."""
 
-from __future__ import annotations
-
 import math
 from functools import cached_property
 

@@ -15,8 +15,6 @@ n = B₁₁/A₁₁ and b = C₁₁/2(D₁₁ − n B₁₁); the shear complian
 Source: Jones, Mechanics of Composite Materials (1999), 2.7, 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -6,8 +6,6 @@ layers is free: Σ f_z z = 0. The area of a cell that is stiffer, or partly cove
 factor of its stiffness. Derived for this project.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from copy import copy
 

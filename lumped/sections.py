@@ -87,7 +87,7 @@ class CellSection:
 
     @property
     def free_shear(self) -> np.ndarray:
-        """S along x and y (…, 2) [N/m] without a force that shears the other way."""
+        """Return S along x and y (…, 2) [N/m] without a force that shears the other way."""
         return free(np.diagonal(self.shear, axis1=-2, axis2=-1), self.shear[..., 0, 1])
 
     @property

@@ -86,9 +86,8 @@ class Springs:
         values = np.concatenate([[0.0], *(array.ravel() for array in of_cells.values())])
         unsigned = [array.ravel() for name, array in of_cells.items() if name not in ANY_SIGN]
         valid = np.abs(values).max() <= LARGEST and np.concatenate([[0.0], *unsigned]).min() >= 0.0
-        pair, whole = (
-            (PerDirection.model_construct, SpringSet.model_construct) if valid else (PerDirection, SpringSet)
-        )
+        pair: Any = PerDirection.model_construct if valid else PerDirection
+        whole: Any = SpringSet.model_construct if valid else SpringSet
         written: dict[str, Any] = dict.fromkeys(REQUIRED, 0.0)
         for name, parts in self.of.items():
             of_edges = name in EDGES_OWN
@@ -157,12 +156,12 @@ class Springs:
 
     @property
     def varies(self) -> bool:
-        """Whether any constant is given cell by cell."""
+        """Return whether any constant is given cell by cell."""
         return any(part.size > 1 for parts in self.of.values() for part in parts)
 
     @property
     def rubber(self) -> bool:
-        """Whether the layers' cells are rubber membranes."""
+        """Return whether the layers' cells are rubber membranes."""
         return "neo_hookean_shear" in self.of or "mooney_rivlin" in self.of
 
     def scaled(self, factor: np.ndarray) -> Springs:

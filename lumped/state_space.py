@@ -155,5 +155,4 @@ def _balanced(space: StateSpace, order: int | None, tolerance: float | None) -> 
 def _root(gramian: np.ndarray) -> np.ndarray:
     """Return L of a Gramian L Lᵀ, without eigenvalues that rounding made negative."""
     values, vectors = np.linalg.eigh(0.5 * (gramian + gramian.T))
-    root: np.ndarray = vectors * np.sqrt(np.clip(values, 0.0, None))
-    return root
+    return vectors * np.sqrt(np.clip(values, 0.0, None))

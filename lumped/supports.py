@@ -87,8 +87,7 @@ class Constraints:
     def nearest(self, u: np.ndarray) -> np.ndarray:
         """Return the unknowns (m,) whose T q is closest to u (n, 3): (TᵀT)⁻¹ Tᵀ u."""
         rows = transposed_product(self.transform_arrays, u.ravel(), self.transform.shape[1])
-        unknowns: np.ndarray = self._normal_solve(rows)
-        return unknowns
+        return self._normal_solve(rows)
 
     @cached_property
     def _normal_solve(self) -> Callable[[np.ndarray], np.ndarray]:

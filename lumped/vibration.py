@@ -4,8 +4,6 @@ K is the tangent in that state, M the mass matrix (`lumped.masses`). A lattice w
 motions free has zero frequencies: they are computed with a small shift, counted, and left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -25,13 +23,11 @@ from lumped.statics.problem import Problem
 from lumped.statics.solver import stable_equilibrium
 from sheetbench.answers.modes import NaturalModes
 from sheetbench.answers.solution import About
-from sheetbench.errors import BadInput, Impossible
+from sheetbench.errors import BadInput
 from sheetbench.numerics.direct import Factor
 from sheetbench.numerics.eigenmodes import lowest_modes
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import AnyScene, Scene, free_rigid_motions, require_static, scene_of
-
-COINCIDENT = 1e-6  # relative difference up to which two frequencies coincide
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,24 +51,8 @@ class Modes(NaturalModes):
         Function of a mode's number that returns the derivatives of its frequency.
     """
 
+    no_gradient = "not for a flat sheet with a natural state"
     surface: Callable[[np.ndarray], tuple[np.ndarray, MidSurface]]
-    gradient_of: Callable[[int], Any] | None = None
-
-    def sensitivity(self, number: int) -> Any:
-        """Return the derivatives df/dθ [Hz per unit] of a mode's frequency by name (`mode_sensitivity`);
-        number: from 1. Raises Impossible where two frequencies coincide, for the last mode, and about a flat
-        sheet with a natural state."""
-        if self.gradient_of is None:
-            raise Impossible("derivatives of frequencies: not for a flat sheet with a natural state")
-        if not 1 <= number < len(self.frequencies):
-            raise Impossible(
-                f"mode {number}: derivatives need the next mode: choose 1 to {len(self.frequencies) - 1}"
-            )
-        near = np.abs(self.frequencies / self.frequencies[number - 1] - 1.0) <= COINCIDENT
-        if near.sum() > 1:
-            which = " and ".join(str(n + 1) for n in np.flatnonzero(near))
-            raise Impossible(f"modes {which} coincide: a single frequency of them has no derivative")
-        return self.gradient_of(number)
 
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
@@ -173,7 +153,8 @@ def modes(
     elastic = values[rigid:], vectors[:, rigid:]
     gradient = partial(_frequency_gradient, bare, calibration, at, loaded, shared, *elastic)
     gradient_of = None if problem.prestrained and not loaded else gradient
-    return Modes(frequencies, shapes, rigid, unknowns, partial(problem.middle, at), gradient_of)
+    surface = partial(problem.middle, at)
+    return Modes(frequencies, shapes, rigid, unknowns, surface, gradient_of=gradient_of)
 
 
 def _frequency_gradient(
@@ -241,11 +222,8 @@ def frequency_slopes(
 
 def _shift(scene: Scene) -> float:
     """Return the shift σ = −100 E h²/(12 ρ a⁴) [1/s²], as far below zero as the lowest elastic eigenvalue of
-    a plate is above it (12 to 1300 of E h²/(12 ρ a⁴), by its supports).
-
-    A free sheet's K − σM has the condition λ_max/|σ|, so its solutions, and with them the eigenvalues, are
-    wrong by ε λ_max/|σ|: with this σ no more than the rounding of K itself, ε λ_max/λ.
-    """
+    a plate is above it (12 to 1300 of E h²/(12 ρ a⁴), by its supports). Eigenvalues of a free sheet are wrong
+    by ε λ_max/|σ|, K − σM having the condition λ_max/|σ|: no more than by the rounding of K, ε λ_max/λ."""
     sheet, material = scene.sheet, scene.material
     slope = sheet.thickness / max(sheet.lengths) ** 2
     return -100.0 * slope**2 * material.young / (12.0 * material.density)

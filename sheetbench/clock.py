@@ -4,8 +4,6 @@ A machine compiles kernels once and a process loads them once: neither belongs t
 solve. The calling thread compiles, so that each thread has a clock of its own.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager

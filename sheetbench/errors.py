@@ -4,8 +4,6 @@ Every package raises BadInput for requests that it cannot fulfil, and for nothin
 other type, a ValueError too, is a fault of the program and shows its traceback.
 """
 
-from __future__ import annotations
-
 import unicodedata
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches

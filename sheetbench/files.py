@@ -5,8 +5,6 @@ Only a regular file is replaced: links, devices, pipes and folders are refused. 
 writer is removed by the next writer of that name.
 """
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os
@@ -117,9 +115,8 @@ def _remove_partial_files(path: Path) -> None:
 
 def _is_alive(process: int) -> bool:
     try:
-        os.kill(process, 0)
+        with suppress(PermissionError, OverflowError):
+            os.kill(process, 0)
     except ProcessLookupError:
         return False
-    except (PermissionError, OverflowError):
-        return True
     return True

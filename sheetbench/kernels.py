@@ -75,9 +75,8 @@ def root() -> Path:
     kernels = f"kernels-{digest()}"
     if (place / kernels).is_dir():
         shutil.copytree(place / kernels, Path(temporary, kernels))
-    logging.getLogger("sheetbench").info(
-        "%s cannot be written: kernels are kept as long as the process", place
-    )
+    unwritable = "%s cannot be written: kernels are kept as long as the process"
+    logging.getLogger("sheetbench").info(unwritable, place)
     return Path(temporary)
 
 

@@ -4,8 +4,6 @@ The program leads a process group of its own, which is killed at the end. It wri
 pipes could be held open by a surviving process that has left the group.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 from collections.abc import Mapping, Sequence

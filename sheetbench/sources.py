@@ -1,7 +1,5 @@
 """Identity of the code that made a result: the installed version, and a digest of the packages' files."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Mapping
 from functools import cache

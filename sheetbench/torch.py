@@ -21,8 +21,8 @@ class _Solved(torch.autograd.Function):
 
     @staticmethod
     def backward(ctx: Any, by: torch.Tensor) -> tuple[Any, ...]:
-        found = ctx.sheet.vjp(_arrays(ctx.names, ctx.saved_tensors), by.detach().cpu().numpy())
-        return None, None, *(torch.from_numpy(found[name]) for name in ctx.names)
+        slopes = ctx.sheet.vjp(_arrays(ctx.names, ctx.saved_tensors), by.detach().cpu().numpy())
+        return None, None, *(torch.from_numpy(slopes[name]) for name in ctx.names)
 
 
 def _arrays(names: tuple[str, ...], values: tuple[torch.Tensor, ...]) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from sheetbench.numerics.sparse_products import csr_arrays
 from sheetbench.scenes.objects.tables import OverTime
 
 PRECISIONS: dict[str, tuple[str, Any]] = {"double": ("double", np.float64), "single": ("float", np.float32)}
@@ -43,10 +44,9 @@ class Tables:
         """Add a sparse matrix: starts of its rows, columns and values of entries."""
         import scipy.sparse as sp
 
-        rows = sp.csr_array(rows)
-        self.add(name, rows.indptr)
-        self.add(f"{name}_AT", rows.indices)
-        self.add(f"{name}_SHARE", rows.data)
+        arrays = rows if isinstance(rows, tuple) else csr_arrays(sp.csr_array(rows))
+        for ending, values in zip(("", "_AT", "_SHARE"), arrays, strict=True):
+            self.add(f"{name}{ending}", values)
 
     def add_distinct(self, name: str, rows: np.ndarray) -> None:
         """Add rows that differ, by 1e-12, and the number of each row among them."""

@@ -29,7 +29,6 @@ from sheetbench.sources import version
 if TYPE_CHECKING:
     from lumped import Calibration, State, System
 
-NO_GRAVITY = Gravity(acceleration=(0.0, 0.0, 0.0))
 LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
@@ -68,13 +67,13 @@ def program(
             message = str(error)
     else:
         raise BadInput(f"--for c: the check of its steps ends early: {message}")
-    scene, lattice, sources = system.problem.scene, system.assembly.lattice, [*sources_of(scene)]
-    bodies = [*named(scene.supports), *scene.named_obstacles()]
-    labels = {"POINT": scene.probes, "BODY": bodies, "SOURCE": [source.name for source in sources]}
-    names = {kind: identifiers(of) for kind, of in labels.items()}
-    steady = scene.gravity if scene.gravity and not scene.gravity.history else NO_GRAVITY
+    scene, lattice = system.scene, system.assembly.lattice
+    bodies = named(scene.supports) | scene.named_obstacles()
+    sources = {source.name: source.of for source in sources_of(scene)}
+    names = {"POINT": identifiers(scene.probes), "BODY": identifiers(bodies), "SOURCE": identifiers(sources)}
+    steady = scene.gravity.acceleration if scene.gravity and not scene.gravity.history else (0.0, 0.0, 0.0)
     inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
-    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady.acceleration, strict=True)}
+    inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady, strict=True)}
     inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
     outputs = {f"{point}.u{axis}": "m" for point in names["POINT"] for axis in "xyz"}
     outputs |= {f"{body}.R{axis}": "N" for body in names["BODY"] for axis in "xyz"}
@@ -85,14 +84,13 @@ def program(
     tables.add("SHEET_REST", np.concatenate([lattice.positions, middles]), storage="")
     add_springs(tables, system)
     add_masses(tables, system)
-    add_loads(tables, system, calibration, steady.acceleration)
+    add_loads(tables, system, calibration, steady)
     add_contact(tables, system)
     add_growth(tables, system)
-    motions = [tables.curve(body.motion, "displacement") for body in (*scene.supports, *scene.obstacles)]
     loads = dict.fromkeys(one.history for one in (scene.gravity, *scene.loads) if one and one.history)
-    histories = [tables.curve(one, "factor") for one in (*(source.of.history for source in sources), *loads)]
-    tables.add("MOTION", motions, "int")
-    tables.add("HISTORY", histories, "int")
+    histories = [*(natural.history for natural in sources.values()), *loads]
+    tables.add("MOTION", [tables.curve(body.motion, "displacement") for body in bodies.values()], "int")
+    tables.add("HISTORY", [tables.curve(one, "factor") for one in histories], "int")
     tables.add("KNOT", [*tables.knots, *np.zeros((2, 5))], "double")
     tables.add("FIRST", [*tables.starts, 0])
     tables.add("INPUT", [start for _, start in inputs.values()])
@@ -114,10 +112,10 @@ def program(
         patch=script("patch.c") if tables.sizes["BLOCKS"] else "#define patch(s, of) ((void)(of), (real)0)",
         **{kind: ", ".join(of) or "none" for kind, of in names.items()},
     )  # fmt: skip
-    templates = {"sheet.h": "sheet.h", "sheet.c": "sheet.c", "README.md": "sheet.md"}
-    files = {name: Template(script(of)).substitute(texts) for name, of in templates.items()}
     lines = [",".join(["time", *outputs]), *(",".join(map(repr, row)) for row in rows)]
-    files |= {"main.c": script("main.c"), "check.csv": "\n".join(lines) + "\n"}
+    templates = {"README.md": "sheet.md", **{name: name for name in ("sheet.h", "sheet.c", "main.c")}}
+    files = {name: Template(script(of)).substitute(texts) for name, of in templates.items()}
+    files["check.csv"] = "\n".join(lines) + "\n"
     return Program(files, inputs, outputs, step)
 
 
@@ -134,10 +132,9 @@ def samples(system: System, start: State, step: float, steps: int) -> list[list[
             raise lumped.StepFailed(f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times its length")
         acceleration = state.a + system.prescribed.support_acceleration(state.time)
         energies, exerted = system.balance(replace(state, a=acceleration))
-        forces = [*system.problem.constraints.reactions(exerted)[0].values()]
-        at = state.u, system.drive(state.time)
-        forces += [item.exerted(at, state.v).sum(axis=0) for item in system.items]
-        row = [[state.time], *probes.of(state.u), *forces, [*energies.values()]]
+        held, at = system.problem.constraints.reactions(exerted)[0], (state.u, system.drive(state.time))
+        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.items]
+        row = [[state.time], *probes.of(state.u), *held.values(), *pushed, [*energies.values()]]
         rows.append(np.concatenate(row).tolist())
     return rows
 
@@ -145,26 +142,23 @@ def samples(system: System, start: State, step: float, steps: int) -> list[list[
 def add_springs(tables: Tables, system: System) -> None:
     """Add links and cells with their dampers."""
     springs: tuple[Any, ...] = system.assembly.springs[:4]
-    (links, *families), material = springs, system.scene.material
-    tau = 0.0 if system.scene.dampers is not None else material.dashpot_time
-    natural = system.assembly.natural is not None  # then the length of the flat sheet
-    length = np.linalg.norm(links.offset, axis=1) if natural else links.rest_length
-    rows, nodes = [[links.offset, length, links.stiffness, tau * links.stiffness]], [links.nodes]
-    if system.scene.dampers is not None:
-        extra: Any = system.damping.dampers[0]
-        rows.append([extra.offset, extra.rest_length, 0.0 * extra.stiffness, extra.stiffness])
-        nodes.append(extra.nodes)
-    tables.sizes |= {"DAMPED": tau > 0.0 or len(nodes) > 1, "RUBBER": system.assembly.any_strain}
-    tables.add("LINK", np.concatenate(nodes))
-    tables.add_distinct("LINK", np.concatenate([np.column_stack(row) for row in rows]))
+    (links, *families), dampers = springs, system.scene.dampers
+    tau = system.scene.material.dashpot_time if dampers is None else 0.0
+    alone: Any = [] if dampers is None else system.damping.dampers[:1]
+    pairs = [(links, (1.0, tau)), *((of, (0.0, 1.0)) for of in alone)]  # shares of springs and dampers
+    tables.sizes |= {"DAMPED": tau > 0.0 or len(pairs) > 1, "RUBBER": system.assembly.any_strain}
+    tables.add("LINK", np.concatenate([of.nodes for of, _ in pairs]))
+    rows = [[of.offset, np.linalg.norm(of.offset, axis=1), np.outer(of.stiffness, by)] for of, by in pairs]
+    tables.add_distinct("LINK", np.concatenate([*map(np.column_stack, rows)]))
     corners, cells = [], []
     for family in families:  # layers, mid-surface, upright faces
-        k, is_rubber, upright = family.constants, family.constants.shape[1] == 13, family is families[-1]
-        q = k[:, 3:4] * np.eye(7)[3] if upright else k[:, :7] * ((np.arange(7) < 4) | (not is_rubber))
-        others = k[:, 4:13] if is_rubber else np.zeros((len(k), 9))
-        cells.append(np.column_stack([family.sides.reshape(-1, 6), q, np.full(len(k), tau), others]))
-        masses, several = family.nodes[:, :, 0], family.nodes.shape[2] > 1
-        corners.append(middle_of(system, masses) if several else masses)
+        row, k, masses = np.zeros((len(family), 23)), family.constants, family.nodes[:, :, 0]
+        row[:, :6], row[:, 13] = family.sides.reshape(-1, 6), tau
+        if k.shape[1] == 13:  # rubber
+            k, row[:, 14:] = k[:, :4], k[:, 4:]
+        row[:, 6 : 6 + k.shape[1]] = k
+        cells.append(row)
+        corners.append(middle_of(system, masses) if family.nodes.shape[2] > 1 else masses)
     tables.sizes["UPRIGHT"] = sum(map(len, cells[:-1]))
     tables.add("CELL", np.concatenate(corners), "entry")
     tables.add_distinct("CELL", np.concatenate(cells)[:, : 23 if system.assembly.any_strain else 14])
@@ -179,8 +173,6 @@ def middle_of(system: System, masses: np.ndarray) -> np.ndarray:
 def add_masses(tables: Tables, system: System) -> None:
     """Add matrices of columns of masses along each axis, from forces to free accelerations and from
     velocities to momenta; masses' damping, the supports that move them, and sums of the supports' forces."""
-    import scipy.sparse as sp
-
     constraints, p, n = system.problem.constraints, system.assembly.lattice.grid[2], len(system.lattice_mass)
     matrices = []
     for apply in (system.accelerate, system.momentum):
@@ -197,9 +189,7 @@ def add_masses(tables: Tables, system: System) -> None:
             firm = ~constraints.fixed[rows, axis] | (axis in tilt_axes(support)) | (support.motion is None)
             owner[rows[firm], axis] = number
     tables.add("OWNER", owner)
-    starts, held, values = constraints.summed
-    starts = np.append(starts, np.full(3 * len(system.items), starts[-1]))  # none of obstacles
-    tables.add_sparse("SUMMED", sp.csr_array((values, held, starts), shape=(len(starts) - 1, owner.size)))
+    tables.add_sparse("SUMMED", constraints.summed)
 
 
 def add_loads(tables: Tables, system: System, calibration: Calibration, gravity: Sequence[float]) -> None:
@@ -231,26 +221,25 @@ def add_contact(tables: Tables, system: System) -> None:
     """Add obstacles and the points of the mid-surface that may touch them, on planes columns of masses, else
     nine of each block of a cell."""
     lattice, obstacles = system.assembly.lattice, system.scene.obstacles
-    bodies, blocks = [np.empty(0, int)], [np.empty((0, 9), int)]
-    columns, rows = [np.empty((0, 4), int)], [np.empty((0, 7))]
+    points, blocks = [np.empty((0, 12))], [np.empty((0, 9), int)]
     for number, contact in enumerate(system.problem.contacts):
-        cells, body, first = len(contact.nodes), contact.obstacle, sum(map(len, bodies))
-        area, offset = contact.area, contact.offset
+        body, area, offset, first = contact.obstacle, contact.area, contact.offset, sum(map(len, points))
         if not contact.at_corners:
             area = area.sum(axis=1)[:, None] / (4 * len(contact.groups))
-            of_cells = first + len(contact.basis) * np.arange(cells)
+            of_cells = first + len(contact.basis) * np.arange(len(area))
             blocks.append((of_cells[:, None, None] + contact.groups).reshape(-1, 9))
         if isinstance(body, Plane):  # from where the points rest
             rest = contact.weights @ lattice.positions[contact.nodes]
             offset = offset - (rest - body.position) @ body.direction
         values = offset, contact.share * contact.full * area, contact.rounded * contact.thickness
+        columns = middle_of(system, contact.nodes[:, None, :: lattice.grid[2]])
         shares = contact.weights.reshape(-1, 4, lattice.grid[2]).sum(axis=2)
-        rows.append(np.column_stack([np.tile(shares, (cells, 1)), *map(np.ravel, values)]))
-        bodies.append(np.full(len(rows[-1]), number))
-        columns.append(np.repeat(contact.nodes[:, :: lattice.grid[2]], len(contact.basis), axis=0))
-    tables.add("CONTACT", np.concatenate(bodies))
-    tables.add("POINT_AT", middle_of(system, np.concatenate(columns)))
-    tables.add_distinct("POINT", np.concatenate(rows))
+        parts = np.full((1, 1, 1), number), columns, shares, np.stack(values, axis=2)
+        whole = [np.broadcast_to(part, (*offset.shape, part.shape[-1])) for part in parts]
+        points.append(np.concatenate(whole, axis=2).reshape(-1, 12))
+    tables.add("CONTACT", np.concatenate(points)[:, 0].astype(int))
+    tables.add("POINT_AT", np.concatenate(points)[:, 1:5].astype(int))
+    tables.add_distinct("POINT", np.concatenate(points)[:, 5:])
     shapes = [[*o.position, *o.direction, o.radius, o.contact_damping, o.friction] for o in obstacles]
     tables.add("OBSTACLE", np.nan_to_num(np.reshape(shapes, (-1, 9)), posinf=0.0))
     tables.add("BLOCK", np.concatenate(blocks), "int")

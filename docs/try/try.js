@@ -1,18 +1,19 @@
 // Steps lattices in WebAssembly, draws them, and plots the far corner beside the shell's stored answer.
 "use strict";
-const SCENES = { "two-edges-clamped": "two edges clamped", "one-edge-clamped": "one edge clamped" };
-const YOUNG = 54.5e6, GRAVITY = 9.81, SIDE = 0.188, POINTS = 5, LAST = POINTS * POINTS - 1;
-const COLUMNS = 9, MIDDLE = 2 * COLUMNS ** 2, ROWS = MIDDLE + COLUMNS ** 2; // masses along a side; rows of sheet.h
-const HELD = 15, LIFT = 3 * POINTS ** 2 + 2; // N/m of the spring to a finger; number of the input gravity.z
-const STOPS = { young: [0.5, 1, 2], thickness: [2, 3, 4, 6], gravity: [0, 0.5, 1, 2], damping: [0, 1, 4, 12] };
-const LOADS = [0.25, 0.5, 1, 2, 4], SPAN = 6; // of g/E; seconds of the plot
+const YOUNG = 54.5e6, GRAVITY = 9.81, SIDE = 0.188, SPAN = 6; // Pa, m/s², m, seconds of the plot
+const SIDE_COLUMNS = 9, COLUMNS = SIDE_COLUMNS ** 2, ROWS = 3 * COLUMNS; // rows of sheet.h: two layers and their middles
+const HELD = 15, LIFT = 3 * COLUMNS + 2; // N/m of the spring to a finger; number of the input gravity.z
+const LOADS = [0.25, 0.5, 1, 2, 4]; // of g/E
 const by = id => document.getElementById(id);
-const value = name => STOPS[name][+by(name).value];
+const value = name => CHOICES[name].stops[+by(name).value];
 const three = of => [0, 1, 2].map(of);
 const dot = (x, y) => x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-const SHOWN = {
-  young: v => `${(v * YOUNG / 1e6).toFixed(1)} MPa`, thickness: v => `${v} mm`,
-  gravity: v => `${(v * GRAVITY).toFixed(1)} m/s²`, damping: v => v ? `${v} 1/s` : "none",
+const CHOICES = { // what can be chosen: its stops, the one it starts with, how it is shown
+  scene: { stops: ["two-edges-clamped", "one-edge-clamped"], start: 0, shown: v => v.replaceAll("-", " ") },
+  thickness: { stops: [2, 3, 4, 6], start: 1, shown: v => `${v} mm` },
+  E: { stops: [0.5, 1, 2], start: 1, shown: v => `${(v * YOUNG / 1e6).toFixed(1)} MPa` },
+  gravity: { stops: [0, 0.5, 1, 2], start: 2, shown: v => `${(v * GRAVITY).toFixed(1)} m/s²` },
+  damping: { stops: [0, 1, 4, 12], start: 2, shown: v => v ? `${v} 1/s` : "none" },
 };
 let program = null, answers = {}, known = null, track = [], time = 0, left = 0, before = 0;
 let grabbed = null, looking = null, turn = -0.6, tilt = 0.5, frames = 0, spent = 0, wanted = "";
@@ -22,10 +23,9 @@ const numbers = (address, count) => new Float64Array(program.memory.buffer, addr
 const vectors = number => numbers(program.SHEET.value + 8 * (3 + LIFT + 3 * ROWS * number), 3 * ROWS); // u or v
 const set = (number, value) => program.sheet_set(program.SHEET.value, number, value);
 
-async function load() {
-  const name = wanted = `${by("scene").value}-${value("thickness")}.wasm`;
+async function load(name) {
   try {
-    const response = await fetch(name);
+    const response = await fetch(`${name.replace(" ", "-")}.wasm`);
     if (!response.ok) throw new Error(`${response.status}`);
     const { instance } = await WebAssembly.instantiate(await response.arrayBuffer(), {});
     if (wanted !== name) return; // another was chosen meanwhile
@@ -40,14 +40,15 @@ async function load() {
 
 // E in proportion to every spring: gravity and forces over it and time by its root are the same motion
 function apply() {
-  for (const name of Object.keys(STOPS)) by(name).nextElementSibling.textContent = SHOWN[name](value(name));
-  const load = value("gravity") / value("young"), stored = answers[`${by("scene").value} ${value("thickness")}`];
-  known = load === 0 ? 0 : stored ? stored[LOADS.indexOf(load)] : null;
-  if (program) set(LIFT, -GRAVITY * load);
+  for (const name in CHOICES) by(name).ariaValueText = by(name).previousElementSibling.textContent = CHOICES[name].shown(value(name));
+  const ratio = value("gravity") / value("E"), sheet = `${value("scene")} ${value("thickness")}`;
+  known = ratio === 0 ? 0 : answers[sheet]?.[LOADS.indexOf(ratio)] ?? null;
+  if (wanted !== sheet) load(wanted = sheet);
+  if (program) set(LIFT, -GRAVITY * ratio);
 }
 
 function advance(seconds) {
-  const root = Math.sqrt(value("young")), step = 4 * numbers(program.SHEET.value, 2)[1], v = vectors(1);
+  const root = Math.sqrt(value("E")), step = 4 * numbers(program.SHEET.value, 2)[1], v = vectors(1);
   const slower = Math.exp(-value("damping") / root * step);
   left = Math.min(left + seconds * root, 40 * root * 1e-3);
   for (; left > 0; left -= step, time += step / root) {
@@ -60,9 +61,9 @@ function pull(point, stiffness) { // a soft spring from the point to the finger,
   const [x, y] = project(place(point)), [right, up] = axes();
   three(e => set(3 * point + e, stiffness && stiffness * ((grabbed.x - x) * right[e] + (y - grabbed.y) * up[e])));
 }
-function place(p) {
-  const cell = SIDE / (POINTS - 1), rest = [cell * (p % POINTS), cell * Math.floor(p / POINTS), 0];
-  return three(e => rest[e] + program.sheet_get(program.SHEET.value, 3 * p + e));
+function place(column) {
+  const first = 3 * (2 * COLUMNS + column), rest = numbers(program.SHEET_REST.value, 3 * ROWS), u = vectors(0);
+  return three(e => rest[first + e] + u[first + e]);
 }
 const scale = () => 0.66 * Math.min(by("sheet").clientWidth, 1.2 * by("sheet").clientHeight) / SIDE;
 function axes() { // to the right, up and towards the viewer
@@ -76,9 +77,8 @@ function project([x, y, z]) {
 const line = (points, how) => `<polyline points="${points.map(p => p.slice(0, 2)).join(" ")}" ${how}/>`;
 
 function draw() {
-  const n = COLUMNS, u = vectors(0), rest = numbers(program.SHEET_REST.value, 3 * ROWS), at = [], cells = [];
-  for (let i = 3 * MIDDLE; i < 3 * ROWS; i += 3) at.push(project(three(e => rest[i + e] + u[i + e])));
-  for (let k = 0; k + n + 1 < n * n; k++) if (k % n < n - 1) cells.push([k, k + 1, k + n + 1, k + n, k].map(c => at[c]));
+  const n = SIDE_COLUMNS, at = [...Array(COLUMNS).keys()].map(k => project(place(k))), cells = [];
+  at.forEach((_, k) => k % n && k >= n && cells.push([k - n - 1, k - n, k, k - 1, k - n - 1].map(c => at[c])));
   const far = c => c[0][2] + c[1][2] + c[2][2] + c[3][2];
   const faces = cells.sort((a, b) => far(a) - far(b)).map(c => {
     const [a, b] = [2, 3].map(k => three(e => c[k][e] - c[k - 2][e])); // diagonals
@@ -117,7 +117,7 @@ function frame(now) {
   const began = performance.now();
   advance(Math.min(Math.max(now - before, 0), 40) / 1e3);
   before = now;
-  const corner = place(LAST)[2];
+  const corner = place(COLUMNS - 1)[2];
   track.push([time, corner]);
   while (track[0][0] < time - SPAN) track.shift();
   draw(), plot(), say(corner);
@@ -128,7 +128,7 @@ function frame(now) {
 by("sheet").addEventListener("pointerdown", event => {
   const [x, y] = looking = [event.offsetX, event.offsetY];
   by("sheet").setPointerCapture(event.pointerId);
-  for (let p = 0, least = 45; program && p <= LAST; p++) {
+  for (let p = 0, least = 45; program && p < COLUMNS; p++) {
     const q = project(place(p)), d = Math.hypot(q[0] - x, q[1] - y);
     if (d < least) grabbed = { point: p, x, y }, least = d;
   }
@@ -142,8 +142,10 @@ for (const end of ["pointerup", "pointercancel"]) by("sheet").addEventListener(e
   if (grabbed && program) pull(grabbed.point, 0);
   grabbed = looking = null;
 });
-for (const [name, words] of Object.entries(SCENES)) by("scene").add(new Option(words, name));
-for (const name of Object.keys(STOPS)) by(name).addEventListener("input", apply);
-for (const name of ["scene", "thickness"]) by(name).addEventListener("change", load);
+for (const [name, { stops, start }] of Object.entries(CHOICES)) {
+  const range = `<input id="${name}" type="range" max="${stops.length - 1}" value="${start}" aria-label="${name}">`;
+  by("panel").insertAdjacentHTML("beforeend", `<div class="slider"><span>${name}</span><b class="value"></b>${range}</div>`);
+  by(name).addEventListener("input", apply);
+}
 fetch("answers.json").then(response => response.json()).then(found => { answers = found; apply(); });
-load(), requestAnimationFrame(frame);
+apply(), requestAnimationFrame(frame);

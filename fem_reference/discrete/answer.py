@@ -6,8 +6,6 @@ solver has brought below its tolerance or to its rounding error, and the roundin
 the scene's own (see `surface.balance`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple, cast
@@ -52,8 +50,8 @@ class Traced(NamedTuple):
 
 def inspected(path: Path[StaticState, Forces]) -> Fault | None:
     """Return the fault that rejects a step of a path, if there is one."""
-    fault: Fault | None = (shape := shape_of(path)).sheet.fault(shape)
-    return fault
+    shape = shape_of(path)
+    return shape.sheet.fault(shape)
 
 
 def traced(

@@ -4,8 +4,6 @@ A sheet is discretised for one of both, and all its parts take one number, `at`:
 [s]. Statics take the last factor of every history and the last pose of every motion.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import Any
 

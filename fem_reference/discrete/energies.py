@@ -1,7 +1,5 @@
 """Energies of a discrete sheet in motion, and the dissipation and work of a step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

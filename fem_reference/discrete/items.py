@@ -4,8 +4,6 @@ An item reads a `SheetShape` and acts on all coordinates or, like the loads of `
 and director at the nodes of the plan's elements. No other class depends on an item's kind.
 """
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np
@@ -115,9 +113,8 @@ class Drag(SheetItem):
         share = -2.0 * self._coefficient * GAUSS_WEIGHTS * np.abs(speed) / size
         value = AT_GAUSS[0]
         out = np.zeros((len(area), 18, 3, 18, 3))
-        out[:, :9, :, :9] = np.einsum(
-            "eg,gi,egc,gj,egd->eicjd", share, value, area, value, area, optimize=True
-        )
+        sides = value, area, value, area
+        out[:, :9, :, :9] = np.einsum("eg,gi,egc,gj,egd->eicjd", share, *sides, optimize=True)
         return np.arange(len(out)), out
 
     def exchanged(self, shape: SheetShape) -> tuple[float, float]:

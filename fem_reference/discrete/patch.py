@@ -7,13 +7,10 @@ function of r, smooth between the real parts of the roots of three polynomials: 
 (3t − t³) removes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
-LINE = np.array(
-    [[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]]
-)  # coefficients of a parabola by its values
+# coefficients of a parabola by its values
+LINE = np.array([[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]])
 BERNSTEIN = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
 INNER, INNER_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _T, _W = np.polynomial.legendre.leggauss(14)
@@ -57,16 +54,12 @@ def points(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     root = np.sqrt(np.maximum(y * y - 4.0 * x * z, 0.0))
     t = -0.5 * (y + np.copysign(root, y))
     with np.errstate(divide="ignore", invalid="ignore"):
-        pair = np.sort(
-            np.clip(np.nan_to_num(np.stack([t / x, z / t]), nan=2.0, posinf=2.0, neginf=-2.0), -1.0, 1.0),
-            axis=0,
-        )
+        pair = np.nan_to_num(np.stack([t / x, z / t]), nan=2.0, posinf=2.0, neginf=-2.0)
+    pair = np.sort(np.clip(pair, -1.0, 1.0), axis=0)
     rootless = y * y <= 4.0 * x * z
     cuts = np.stack([-np.ones_like(r), *pair, np.ones_like(r)])  # below, between and above the roots
-    low, high = (
-        np.where(rootless, np.stack([cuts[0], cuts[3], cuts[3]]), cuts[:-1]),
-        np.where(rootless, cuts[3], cuts[1:]),
-    )
+    low = np.where(rootless, cuts[[0, 3, 3]], cuts[:-1])
+    high = np.where(rootless, cuts[3], cuts[1:])
     at = 0.5 * (low + high)
     inside = x * at * at + y * at + z > 0.0
     width = 0.5 * (high - low) * inside * weight

@@ -99,8 +99,7 @@ class Rods:
 
     def inertial(self, a: np.ndarray) -> np.ndarray:
         """Return M a (k, a, 3) of accelerations (N,) on the sides' vectors."""
-        forces: np.ndarray = np.einsum("eij,ejc->eic", self._mass, self.gather(a))
-        return forces
+        return np.einsum("eij,ejc->eic", self._mass, self.gather(a))
 
     def driving(self, shape: SheetShape) -> np.ndarray:
         """Return the force of the commands on the sides' vectors (k, a, 3)."""
@@ -150,8 +149,7 @@ class Rods:
         return self.elements.reference + (0.0 if self._linear else change)
 
     def _step(self, gradient: np.ndarray, step: np.ndarray) -> np.ndarray:
-        strain: np.ndarray = np.einsum("esic,eic->es", gradient, self.gather(step))
-        return strain
+        return np.einsum("esic,eic->es", gradient, self.gather(step))
 
     def _strain(self, change: np.ndarray) -> np.ndarray:
         return np.einsum("esic,eic->es", self._gradient(0.5 * change), change)

@@ -1,7 +1,5 @@
 """Discrete sheet in a shape: the quantities that forces, tangent and loads share, each formed once."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Any
 
@@ -40,11 +38,11 @@ class SheetShape:
         """Return the change (p, 3) [m] of the mid-surface, as obstacles touch it, at plan points (p, 2), by a
         change (N,) of coordinates."""
         sheet = self.sheet
-        found: np.ndarray = sheet.sample(sheet.displacement(change), points)
+        moved: np.ndarray = sheet.sample(sheet.displacement(change), points)
         if not sheet.touched_without_kinks(self):
-            return found
+            return moved
         on, _, by = tangent_planes.change_at(sheet.plan.mesh, self.vectors, points)
-        return found + np.einsum("pijc,pjc->pi", by, sheet.surface_change(change)[on])
+        return moved + np.einsum("pijc,pjc->pi", by, sheet.surface_change(change)[on])
 
     @cached_property
     def frame(self) -> Any:

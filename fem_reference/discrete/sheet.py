@@ -13,8 +13,6 @@ Their tangent neglects the change of B with the shape, which is of the order of 
 (`discrete.elements`) and rods (`discrete.rods`) exert the internal forces, `items` the external ones.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property
@@ -138,18 +136,18 @@ class Discrete(ABC):
 
     @property
     def symmetric(self) -> bool:
-        """Whether the tangent is symmetric: loads that follow the sheet make it unsymmetric, unless they have
-        a potential or the sheet is linear."""
+        """Return whether the tangent is symmetric: loads that follow the sheet make it unsymmetric, unless
+        they have a potential or the sheet is linear."""
         return self.linear or all(item.conservative for item in self.items)
 
     @property
     @abstractmethod
     def sheet_mass(self) -> csr_matrix:
-        """M (N, N) of the sheet, on which `damping_rate` acts, and its payloads."""
+        """Return M (N, N) of the sheet, on which `damping_rate` acts, and its payloads."""
 
     @cached_property
     def mass(self) -> csr_matrix:
-        """M (N, N) with the chains' mass."""
+        """Return M (N, N) with the chains' mass."""
         return sum((body.mass() for body in self.bodies), self.sheet_mass).tocsr()
 
     # prescribed displacements and the unknowns

@@ -11,8 +11,6 @@ local error, ½ h² |a₁|, no longer lets them double. Rannacher 1984 (Numer. M
 Nicolson's rule in this way.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import NamedTuple
 

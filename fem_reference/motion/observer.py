@@ -1,7 +1,5 @@
 """Observer of a reference's run: energies, probes, reactions and actuators' forces as rows, and strains."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem_reference.discrete.elements import DiscreteElements

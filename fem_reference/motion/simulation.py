@@ -6,8 +6,6 @@ its static equilibrium (`sheetbench.scenes.meaning.motion`). Steps are as long a
 lie within them, cubic in time between their ends.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -16,8 +16,6 @@ edges, and 0.04 % with all edges clamped: so it is graded where an edge has no t
 Hughes, The Finite Element Method (2000), ch. 5.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cached_property
 from typing import ClassVar
@@ -50,13 +48,7 @@ class DiscretePlate(DiscreteShell):
     element: PlateElements
     moved, centripetal, inside_out = Discrete.moved, Discrete.centripetal, Discrete.inside_out
 
-    def __init__(
-        self,
-        mesh: MeshQuad,
-        scene: Scene,
-        section: Section | None = None,
-        moving: bool = False,
-    ):
+    def __init__(self, mesh: MeshQuad, scene: Scene, section: Section | None = None, moving: bool = False):
         super().__init__(mesh, scene, section, moving=moving)
 
     def elements_of(self, section: Section | None, law: str) -> tuple[PlateElements, NaturalState | None]:

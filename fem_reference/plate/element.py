@@ -12,8 +12,6 @@ and there are no spurious zero modes.
 Voigt order (xx, yy, 2xy); plan coordinates in metres.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar, Self
 

@@ -15,8 +15,6 @@ buckled   the in-plane forces N, which the plate's bending neglects, take its st
 The answer is linear in the load, so that each criterion gives the share of the load at which the theory ends.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 

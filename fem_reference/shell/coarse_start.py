@@ -11,8 +11,6 @@ elements around a node. Samples are along an element's own coordinates ξ (see `
     e_αβ = J_xα E_xy J_yβ.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

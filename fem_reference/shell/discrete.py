@@ -14,8 +14,6 @@ and its multiplier, −(R_d · d)/(d · d), stiffens T (the curvature of the sph
 is ½ ρh |u̇|² + ½ ρh³/12 |ḋ|², with ∫ρz dz u̇·ḋ added for layers of different density.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from copy import copy
 from functools import cached_property, partial
@@ -145,8 +143,8 @@ class DiscreteShell(DiscreteElements):
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """∫ ρh N N dA of φ, ∫ ρh³/12 N N dA of d, ∫ρz dz N N dA of both, and payloads (m, 18, 3, 18, 3)
-        [kg, kg m²]."""
+        """Return ∫ ρh N N dA of φ, ∫ ρh³/12 N N dA of d, ∫ρz dz N N dA of both, and payloads, (m, 18, 3, 18,
+        3) [kg, kg m²]."""
         value, of = AT_GAUSS[0], constants_of(self.scene, self.plan.corners)
         kinds = ((of.per_area, of.moment_per_area), (of.moment_per_area, of.rotary_per_area))
         parts = np.array([[self.element.areas * part for part in row] for row in kinds])

@@ -24,8 +24,6 @@ Bᵀ D B + Σ s_k H_k. Strains are formed from the displacement, e = (Q₀ + ½ 
 digits in a sheet of any thinness. No penalty, no stabilisation, no spurious mode.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Self
@@ -113,12 +111,12 @@ class Element:
 
     @cached_property
     def coupled(self) -> bool:
-        """Whether D couples strains of different parts."""
+        """Return whether D couples strains of different parts."""
         return bool(self.stiffness[:, MEMBRANE, BENDING].any())
 
     @cached_property
     def flat_jacobian(self) -> np.ndarray:
-        """det J at the Gauss points (m, 9) [m²], below zero where r, s turn clockwise."""
+        """Return det J at the Gauss points (m, 9) [m²], below zero where r, s turn clockwise."""
         (xr, xs), (yr, ys) = jacobians(self.reference[:, :9, :2], AT_GAUSS[1]).transpose(2, 3, 0, 1)
         return np.asarray(xr * ys - xs * yr)
 

@@ -11,8 +11,6 @@ director inclined by φ, stores ½ κ G h t² tan² φ (`slant`). St Venant–Ki
 stresses of `Element`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
@@ -102,18 +100,16 @@ class HyperelasticElement(Element):
         """Return the energy [J] of strains e (m, 54): of stretch, of bending (the rest), of shear."""
         stretch, curvature = self._strains(strain)
         bent = self.law.thickness(self.material, stretch).value[..., None] * curvature
-        total, membrane = (
-            float(np.sum(self._volumes * self._response(stretch, part).value)) for part in (bent, 0.0 * bent)
-        )
+        values = (self._response(stretch, part).value for part in (bent, 0.0 * bent))
+        total, membrane = (float(np.sum(self._volumes * value)) for value in values)
         shear = self._shear * np.sum(self.areas * self._slant(stretch, strain).value)
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
 
     def _strains(self, strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return E and κ (m, 9, 3) at every element's points from the sampled strains (m, ≥ 42)."""
-        return (
-            np.einsum("egak,ek->ega", self.membrane, strain[:, MEMBRANE]),
-            np.einsum("egak,ek->ega", self.bending, strain[:, BENDING]),
-        )
+        forms = (self.membrane, MEMBRANE), (self.bending, BENDING)
+        stretch, curvature = (np.einsum("egak,ek->ega", form, strain[:, part]) for form, part in forms)
+        return stretch, curvature
 
     def _response(self, stretch: np.ndarray, bent: np.ndarray) -> Triad:
         """Return the law's response to E and t κ through the thickness, (m, 9, 3, …)."""

@@ -21,8 +21,6 @@ Differences that cancel at small strain are formed from E, to keep their digits.
 Voigt order (xx, yy, 2xy), stresses without the 2. [Pa]
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

@@ -3,8 +3,6 @@
 Shear has none. Sections refer to the natural sides (`fem_reference.surface.materials.green`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem_reference.shell.element import BENDING, MEMBRANE, STRAINS, TABLES

@@ -13,8 +13,6 @@ strain counts by its effect on the displacement at the probes: a peak of stretch
 stretch that carries the sheet counts fully, and near a fold, where K is soft, a small strain counts much.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem_reference.discrete.static import Static, StaticState
@@ -55,10 +53,9 @@ def shift(scene: Scene, answer: Solution) -> float | None:
         moved = [np.zeros(1)]
         try:
             factor = sheet.solver().factor(matrix)
+            plain = sheet.plan.corners, scene.material, scene.sheet.thickness
             for law in OTHERS:
-                other = HyperelasticElement.of(
-                    sheet.plan.corners, scene.material, scene.sheet.thickness, LAWS[law]
-                )
+                other = HyperelasticElement.of(*plain, LAWS[law])
                 # the answer's own residual is not counted
                 state, forces, residual = start, rest, np.zeros(1)
                 for _ in range(STEPS):

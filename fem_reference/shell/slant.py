@@ -12,8 +12,6 @@ sin² φ = γᵀ C⁻¹ γ and
 j² C⁻¹ is linear in E. W is nan where φ reaches 90°, which ends a step. Voigt order (xx, yy, 2xy).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem_reference.shell.laws import determinant

@@ -16,8 +16,6 @@ stretched  In an element of sides b ≥ l the membrane shear's assumed strains d
            of the model.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from fem_reference.discrete.answer import inspected, shape_of

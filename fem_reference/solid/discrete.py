@@ -16,8 +16,6 @@ on D a traction linear in ζ. The power of pressure and moment is the shell's to
 Rods along edges (see `rods`) are further elements with directors of their own.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import ClassVar
 
@@ -102,7 +100,7 @@ class DiscreteSolid(DiscreteElements):
 
     @cached_property
     def _inertia(self) -> np.ndarray:
-        """∫ ρ N N dV (m, 3 s, 3 s) of the stacks, with the payloads on columns' means and directors."""
+        """Return ∫ ρ N N dV (m, 3 s, 3 s) of the stacks, with payloads on columns' means and directors."""
         blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
         if self.scene.masses:
             add_carried(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))
@@ -225,9 +223,8 @@ class DiscreteSolid(DiscreteElements):
         """Return the largest stretching √(1 + 2 E) − 1 along elements' sides, E the mean Green strain."""
         places = (self.on_surface(q)[:, :9] for q in (np.zeros_like(shape.q), shape.q))
         rest, current = (np.sum(np.einsum("agi,eic->aegc", AT_GAUSS[1], at) ** 2, axis=3) for at in places)
-        mean = (
-            (current / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()
-        )  # 2 E, of both sides of every element
+        # 2 E, of both sides of every element
+        mean = (current / rest - 1.0) @ GAUSS_WEIGHTS / GAUSS_WEIGHTS.sum()
         return float(np.max(np.abs(np.sqrt(np.maximum(1.0 + mean, 0.0)) - 1.0)))
 
     def middles(self, displacement: np.ndarray) -> np.ndarray:

@@ -127,7 +127,7 @@ class Bricks:
 
     @cached_property
     def bulk(self) -> np.ndarray:
-        """Λ [Pa], (1,) or (m, 1)."""
+        """Return Λ [Pa], (1,) or (m, 1)."""
         return np.atleast_1d(self.law.bulk(self.material))
 
     def strain(self, change: np.ndarray) -> np.ndarray:
@@ -226,7 +226,7 @@ class Bricks:
 
     @cached_property
     def _projector(self) -> np.ndarray:
-        """P (m, 6, q): ∫ φ_r ϑ dV = P ϑ for modes φ_r orthonormal over the element."""
+        """Return P (m, 6, q): ∫ φ_r ϑ dV = P ϑ for modes φ_r orthonormal over the element."""
         modes = reference().modes
         gram = np.einsum("qr,eq,qs->ers", modes, self.volumes, modes)
         return np.linalg.solve(np.linalg.cholesky(gram), (modes * self.volumes[..., None]).swapaxes(1, 2))

@@ -17,8 +17,6 @@ small-strain limit.
 Source: Bonet & Wood, Nonlinear Continuum Mechanics (2008), ch. 6. [Pa]
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -103,11 +101,10 @@ def _rubber_distortion(energy: Energy, strain: np.ndarray) -> Triad:
 
 
 def _rubber(energy: Callable[[Material], Energy]) -> SolidLaw:
-    return SolidLaw(
-        lambda material, strain: _rubber_distortion(energy(material), strain),
-        _logarithmic_volume,
-        lambda material: energy(material).volume(material.poisson),
-    )
+    def distortion(material: Material, strain: np.ndarray) -> Triad:
+        return _rubber_distortion(energy(material), strain)
+
+    return SolidLaw(distortion, _logarithmic_volume, lambda of: energy(of).volume(of.poisson))
 
 
 LAWS = {

@@ -9,8 +9,6 @@ N_l(ζ), and two averages of a column stand for the sheet as a surface:
 Coordinates in metres.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -93,11 +91,11 @@ class Columns:
         clockwise = (b - a)[0] * (d - a)[1] < (b - a)[1] * (d - a)[0]  # as scikit-fem numbers some meshes
         base = self.levels * np.where(clockwise[:, None], plan[:, ::-1], plan)
         cells = [np.concatenate([base + level, base + level + 1], axis=1) for level in range(self.levels - 1)]
-        return FieldMesh(
-            self.positions.reshape(-1, 3),
+        blocks, fields = (
             [("hexahedron", np.concatenate(cells))],
             {"displacement": displacement.reshape(-1, 3)},
         )
+        return FieldMesh(self.positions.reshape(-1, 3), blocks, fields)
 
 
 def _require_meshable(scene: Scene, law: str) -> None:
@@ -147,9 +145,8 @@ def _constants_of_bricks(scene: Scene, middles: np.ndarray, layers: int) -> Cons
         return constants
     heights = (np.arange(layers) + 0.5) / layers - 0.5
     ply_at = [next(ply for ply in constants.plies if ply.low <= at <= ply.high) for at in heights]
-    values: list[Any] = [
-        np.repeat(column, len(middles) // layers)[:, None] for column in zip(*ply_at, strict=True)
-    ]
+    each = len(middles) // layers
+    values: list[Any] = [np.repeat(column, each)[:, None] for column in zip(*ply_at, strict=True)]
     ply = Ply(*values)
     return constants.replace(plies=(ply._replace(low=-0.5, high=0.5),), density=ply.density)
 

@@ -9,8 +9,6 @@ free only to change its thickness along d: with w = x_l − φ of every level l,
 vanish, as firmly as the rod's own d · m. All strains stay quadratic forms of the unknowns. SI units.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -53,9 +51,7 @@ def _elements(rod: Rod, columns: Columns) -> RodElements:
     flat = columns.positions[rod.nodes].reshape(k, -1, 3)
     along = np.cross(side.reference[:, 3:6], side.reference[:, 6:])
     total = np.concatenate(stiffness, axis=1)
-    return RodElements(
-        reference=np.concatenate([flat, side.reference[:, 3:], along], axis=1),
-        forms=np.concatenate(forms, axis=1),
-        stiffness=total,
-        intrinsic=np.pad(side.intrinsic, ((0, 0), (0, total.shape[1] - side.intrinsic.shape[1]), (0, 0))),
-    )
+    reference = np.concatenate([flat, side.reference[:, 3:], along], axis=1)
+    more = total.shape[1] - side.intrinsic.shape[1]  # strains without an intrinsic part
+    intrinsic = np.pad(side.intrinsic, ((0, 0), (0, more), (0, 0)))
+    return RodElements(reference, np.concatenate(forms, axis=1), total, intrinsic)

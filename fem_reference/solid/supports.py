@@ -24,8 +24,6 @@ face's axes (across the edge, along it, d), and on a hinged or held edge, and wh
 column's mean in place of its middle node.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -7,8 +7,6 @@ segment, its moment about the edge's middle; chains that act as one share its fo
 the forces of a common corner.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import NamedTuple
 

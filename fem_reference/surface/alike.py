@@ -145,10 +145,8 @@ def centred(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
     import shapely
 
     centre = np.mean(np.reshape(region.bounds, (2, 2)), axis=0)
-    rims, lines = (
-        straight_parts(shapely.transform(part, lambda at: np.round(at - centre, DIGITS)))
-        for part in (region.boundary, inner)
-    )
+    parts = shapely.transform([region.boundary, inner], lambda at: np.round(at - centre, DIGITS))
+    rims, lines = map(straight_parts, parts)
     keys = [[_ordered(part, turn).ravel().tolist() for part in (rims, lines)] for turn in TURNS]
     turn = TURNS[keys.index(max(keys))]
     images = [other @ turn.T for other, key in zip(TURNS, keys, strict=True) if key == max(keys)]

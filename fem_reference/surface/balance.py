@@ -14,8 +14,6 @@ with whose nodal forces the model has been solved. All integrands but t̂ are of
 integrated exactly; t̂ is taken at the points where `loads` applies the moment.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -108,13 +106,9 @@ def left_over(
     force, moment = applied(scene, surface, edges)
     longest = float(np.ptp(surface.plan.nodes, axis=0).max())
     turning = [np.cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
-    return Balance(
-        force=share * force + np.sum(list(reactions.values()), axis=0),
-        moment=share * moment + np.sum(turning, axis=0),
-        size=size,
-        allowed=allowed,
-        arm=max(longest, float(np.linalg.norm(held[0][0], axis=-1).max())),
-    )
+    force = share * force + np.sum(list(reactions.values()), axis=0)
+    moment, arm = share * moment + np.sum(turning, axis=0), float(np.linalg.norm(held[0][0], axis=-1).max())
+    return Balance(force, moment, size, allowed, max(longest, arm))
 
 
 def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:

@@ -7,8 +7,6 @@ Covariant strains of a biquadratic element are sampled at `TYING` and interpolat
 element does not lock (Bucalem & Bathe, Int. J. Numer. Meth. Engng 36 (1993) 3729–3754).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

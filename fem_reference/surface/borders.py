@@ -34,7 +34,7 @@ class Borders(NamedTuple):
 
     @property
     def along_axes(self) -> bool:
-        """Whether all borders lie along x or y."""
+        """Return whether all borders lie along x or y."""
         begin, end = self._sides
         return bool(np.all((begin == end).any(axis=1)))
 
@@ -66,9 +66,8 @@ def borders_of(scene: Scene) -> Borders | None:
 
     lx, ly = scene.sheet.lengths
     through = [shapely.LineString(ends) for x, y in points for ends in (((x, 0), (x, ly)), ((0, y), (lx, y)))]
-    region, *inner = without_slivers(
-        [scene.region, *(shape.area.boundary for shape in shapes)], SLIVER * min(lx, ly)
-    )
+    parts = [scene.region, *(shape.area.boundary for shape in shapes)]
+    region, *inner = without_slivers(parts, SLIVER * min(lx, ly))
     return Borders(region, shapely.union_all([*inner, *through]))
 
 

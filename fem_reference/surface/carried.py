@@ -7,8 +7,6 @@ with the shape functions N of the element that holds the point, and the inertia 
 the director's rate. The sum of a row is the mass that weighs at a node. Units: kg, kg m², m.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -5,8 +5,6 @@ rounding: section and laws take complex constants like real ones, so that a law 
 with its stress. Source: Squire and Trapp, SIAM Review 40 (1998) 110.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from types import SimpleNamespace
 from typing import Any

@@ -5,8 +5,6 @@ method in every element whose bounding box holds the point, and keeps the first 
 come nearest to it: in a distorted element without the point the method may end anywhere.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from skfem import MeshQuad
 

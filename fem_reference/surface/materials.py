@@ -10,8 +10,6 @@ A sheet with fibres has the section of its plies (`fem_reference.surface.plies`)
 makes the sheet any other plate, a lattice's homogenised one for instance.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

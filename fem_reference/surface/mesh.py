@@ -5,8 +5,6 @@ flat quadrilateral mesh as well. Biquadratic nodes lie at corners, mid-sides and
 order of scikit-fem's `ElementQuad2`. Coordinates in metres.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
@@ -104,15 +102,15 @@ class Plan:
         facets = self.mesh.boundary_facets()
         ends = self.mesh.p[:, self.mesh.facets[:, facets]]
         near = TOUCHING * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=0)
-        off = [
-            shapely.distance(shape.area, shapely.points(at.T)) for at in (*ends.swapaxes(0, 1), ends.mean(1))
-        ]
-        facets = facets[(np.array(off) < near).all(axis=0)]
-        return np.unique(np.concatenate([self.mesh.facets[:, facets].ravel(), self.mesh.nvertices + facets]))
+        places = np.stack([*ends.swapaxes(0, 1), ends.mean(axis=1)])  # ends and middles
+        off = shapely.distance(shape.area, shapely.points(places.swapaxes(1, 2)))
+        return self._on_facets(facets[(off < near).all(axis=0)])
 
     def on_boundary(self, name: str) -> np.ndarray:
         """Return the nodes (k,) of a boundary, in order."""
-        facets = self.mesh.boundaries[name]
+        return self._on_facets(self.mesh.boundaries[name])
+
+    def _on_facets(self, facets: np.ndarray) -> np.ndarray:
         return np.unique(np.concatenate([self.mesh.facets[:, facets].ravel(), self.mesh.nvertices + facets]))
 
 

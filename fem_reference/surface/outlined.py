@@ -149,10 +149,7 @@ def _joined(
     first_edge, second_edge = order[twin], order[twin + 1]
     inner = ~np.isin(keys[first_edge], borders)
     folded = np.flatnonzero(np.isin(keys, borders[mirror >= 0]))
-    first_edge, second_edge = (
-        np.concatenate([first_edge[inner], folded]),
-        np.concatenate([second_edge[inner], folded]),
-    )
+    first_edge, second_edge = (np.append(edge[inner], folded) for edge in (first_edge, second_edge))
     apex = triangles[:, [2, 0, 1]].ravel()
     quads = np.column_stack([edges[first_edge, 0], apex[second_edge], edges[first_edge, 1], apex[first_edge]])
     corners, across = points[quads], np.full(len(first_edge), -1)
@@ -250,10 +247,8 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
     vertices = np.flatnonzero(count)
     square = np.sum(move[vertices] ** 2, axis=1)  # 2 (1 + n₁ · n₂)
     move[vertices] *= (2.0 * depth[vertices] / np.maximum(square, TIP))[:, None]
-    for start_vertex, end_vertex in (
-        ends[inner].T,
-        ends[inner, ::-1].T,
-    ):  # borders that end there stay where they are
+    # borders that end there stay where they are
+    for start_vertex, end_vertex in (ends[inner].T, ends[inner, ::-1].T):
         meets = count[start_vertex] > 0.0
         step, away = points[end_vertex[meets]] - points[start_vertex[meets]], move[start_vertex[meets]]
         move[start_vertex[meets]] = step * (np.sum(away**2, axis=1) / np.sum(away * step, axis=1))[:, None]
@@ -268,15 +263,13 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
     new = [len(points) + rim_number[ends[on_rim]] + len(vertices) * row for row in range(len(LAYERS))]
     rows, shares = [*new, ends[on_rim]], [0.0, *LAYERS]
     moved = points + LAYERS[-1] * move
-    row_points = np.concatenate(
-        [moved, *(points[vertices] + share * move[vertices] for share in shares[:-1])]
-    )
+    new_points = [points[vertices] + share * move[vertices] for share in shares[:-1]]
     turned = along[:, 0] * normal[:, 1] < along[:, 1] * normal[:, 0]
     row_quads = [np.column_stack([low, high[:, ::-1]]) for low, high in pairwise(rows)]
     row_quads = [np.where(turned[:, None], quads[:, ::-1], quads) for quads in row_quads]
     in_rows = [places[on_rim] + share * in_middle[on_rim] for share in shares]
     return (
-        mesh_of_cells(row_points, np.concatenate([mesh.t.T, *row_quads])),
+        mesh_of_cells(np.concatenate([moved, *new_points]), np.concatenate([mesh.t.T, *row_quads])),
         np.concatenate([ends[inner], *rows]),
         np.concatenate([places[inner] + LAYERS[-1] * in_middle[inner], *in_rows]),
     )

@@ -20,8 +20,6 @@ which is 5/6 h G of a single ply.
 Sources: Jones, Mechanics of Composite Materials (1999), 2.6 and 4.2; Whitney, J. Appl. Mech. 40 (1973) 302.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -63,13 +61,11 @@ def section(plies: Sequence[Ply], thickness: float | np.ndarray) -> tuple[np.nda
     """Return A (…, 3, 3) [N/m], D (…, 3, 3) [N·m], S (…, 2, 2) [N/m] and B (…, 3, 3) [N] of a sheet's plies.
     thickness: of the sheet (…) [m]."""
     moduli = [plane_stress(ply) for ply in plies]
-    stretching, mixed, bending = (
+    forms = stretching, mixed, bending = [
         sum(c * (ply.high**n - ply.low**n) / n for c, ply in zip(moduli, plies, strict=True))
         for n in (1, 2, 3)
-    )
-    stretched, pulled, rigidity = (
-        np.diagonal(part, axis1=-2, axis2=-1)[..., :2] for part in (stretching, mixed, bending)
-    )
+    ]
+    stretched, pulled, rigidity = (np.diagonal(one, axis1=-2, axis2=-1)[..., :2] for one in forms)
     neutral = pulled / stretched
     rigidity = rigidity - neutral * pulled
     compliance = np.zeros((*rigidity.shape, 2), rigidity.dtype)

@@ -23,8 +23,6 @@ Gauss points (d · m at the nodes), where neither inextensibility nor the absenc
 Source: Antman, Nonlinear Problems of Elasticity (2005), ch. 8 (the special Cosserat rod).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -109,20 +107,11 @@ def _rod(scene: Scene, edge_name: str, chains: Mapping[str, Chain], plan: Plan) 
     for chain, share in zip(chain_list, rigidity / rigidity.sum(), strict=True):
         mean = _mean_curvature(chain, length, along - start)
         intrinsic[:, bending, scene.actuators.index(chain)] += share * mean * half[:, None] ** 2
-    return Rod(
-        chains=chains,
-        nodes=sides,
-        places=places,
-        line=line,
-        elements=RodElements(
-            reference=reference,
-            forms=np.tile(_forms(offset), (len(sides), 1, 1, 1)),
-            stiffness=_stiffness(scene, chain_list[0].plane, float(rigidity.sum()), length, half),
-            intrinsic=intrinsic,
-        ),
-        base=_base(chain_list[0], nodes[line, edge.along_axis] - start, length),
-        offset=offset,
-    )
+    forms = np.tile(_forms(offset), (len(sides), 1, 1, 1))
+    stiffness = _stiffness(scene, chain_list[0].plane, float(rigidity.sum()), length, half)
+    elements = RodElements(reference, forms, stiffness, intrinsic)
+    base = _base(chain_list[0], nodes[line, edge.along_axis] - start, length)
+    return Rod(chains, sides, places, line, elements, base, offset)
 
 
 def _mean_curvature(chain: Chain, length: float, along: np.ndarray) -> np.ndarray:
@@ -235,9 +224,8 @@ def bound(
         held = np.tile(np.arange(p) == (-1 if rod.base is None else rod.base), directors)
         parts.append((np.concatenate([on_sheet, on_rod.reshape(k, -1)], axis=1), at_rest, held, *elements))
         first += directors * p
-    sites, at_rest, held, *of_sides = (
-        np.concatenate(part) for part in zip(*(parts[1:] or parts), strict=True)
-    )
+    all_parts = zip(*(parts[1:] or parts), strict=True)
+    sites, at_rest, held, *of_sides = map(np.concatenate, all_parts)
     return BoundRods(tuple(rods), RodElements(*of_sides), sites, at_rest, held)
 
 

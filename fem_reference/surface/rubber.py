@@ -3,8 +3,6 @@
 A further law is a row of that module's table and its slopes here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

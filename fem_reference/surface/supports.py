@@ -6,8 +6,6 @@ of a support that moves. Two supports at a common corner act together. A corner 
 motion and not to a support beside it, which scenes refuse if it contradicts; two motions share its force.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

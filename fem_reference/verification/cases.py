@@ -1,7 +1,5 @@
 """Verification cases, and the answer of `sheetbench verify`: references against published values."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import groupby

@@ -19,8 +19,6 @@ Near ν = ½ the field keeps the volume (k_ii = 0), as required of a nearly inco
 Biquadratic and triquadratic fields: order 3. Source: Chinosi & Lovadina, Comput. Mech. 16 (1995) 36–44.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -129,9 +127,8 @@ def _block_error(poisson: float, elements: int) -> float:
     values, volumes = shape(reference().points)[0], bricks.volumes[..., None]
     points = values.T @ bricks.positions  # (m, q, 3)
     u = exact(points)
-    body_force = (lame_first + lame_second) * (u * np.diag(waves)) @ waves + lame_second * np.sum(
-        waves**2, axis=1
-    ) * u
+    body_force = (lame_first + lame_second) * (u * np.diag(waves)) @ waves
+    body_force += lame_second * np.sum(waves**2, axis=1) * u
     force = sheet.scatter(values @ (volumes * body_force))
     positions = sheet.columns.positions.reshape(-1, 3)
     inside = np.all(np.abs(positions - [0.5, 0.5, 0.0]) < np.array([0.5, 0.5, 0.25]) - 1e-9, axis=1)

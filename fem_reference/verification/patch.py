@@ -6,8 +6,6 @@ linear. Shell: a finite stretch and rotation, and a small constant curvature (wi
 are not biquadratic). Solid: a finite deformation gradient, its top and bottom part of the rim.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import product
 from typing import Any

@@ -29,8 +29,6 @@ Sze, Liu & Lo, Finite Elements in Analysis and Design 40 (2004) 1551–1569, sec
 NAFEMS Benchmarks (1990), test LE10.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any

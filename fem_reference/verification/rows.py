@@ -8,8 +8,6 @@ is 0, and None where neither has a meaning (orders, residuals, manufactured erro
 difference itself is held to the tolerance.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
@@ -100,9 +98,8 @@ def curve(
             authority = source if isinstance(source, str) else source[load]
             for name, expected, computed in zip(names, values, answers[load], strict=True):
                 scale = size if abs(expected) < 1e-9 * size else None
-                yield relatively(
-                    name.format(load), mesh, expected, authority, computed, tolerance, scale=scale
-                )
+                cells = name.format(load), mesh, expected, authority, computed, tolerance
+                yield relatively(*cells, scale=scale)
         load = max(published) if half_at is None else half_at
         yield mesh_change(mesh, answer(model, load, elements // 2), answers[load], tolerance)
 

@@ -1,7 +1,5 @@
 """Sheets and answers shared by several cases."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -38,8 +38,6 @@ fibres Vibration of Plates, NASA SP-160 (1969), 9.1; Reddy, Mechanics of Laminat
 (2004), 5.2.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import product
 from math import pi, sin, sqrt

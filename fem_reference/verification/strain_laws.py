@@ -13,8 +13,6 @@ and P = 0 along t. The strip is loaded by P, and its stretch compared with ε; a
 0.7, 1.5 and 2, and its force compared with P.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from itertools import product
 from math import log

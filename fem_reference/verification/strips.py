@@ -26,8 +26,6 @@ in Analysis and Design 40 (2004) 1551–1569; of the heavy elastica Wang, A crit
 28 (1986) 549–559; of fibres Jones, Mechanics of Composite Materials (1999), 2.8.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import product
 from math import cos, pi, sin

@@ -8,8 +8,6 @@ The chain's forces derive from a Lagrangian: multiplier rows enter like any othe
 residual as their force.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -66,8 +64,7 @@ class RigidMotion:
 
     def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin of the forces that hold the motion."""
-        moment: np.ndarray = np.cross(acting.positions, self._part * acting.on_masses).sum(axis=0)
-        return moment
+        return np.cross(acting.positions, self._part * acting.on_masses).sum(axis=0)
 
     def wrenches(self, acting: Acting) -> np.ndarray:
         """Return force and moment about the edge's current middle, (1, 1, 6) [N, N·m]."""

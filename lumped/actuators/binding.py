@@ -16,8 +16,6 @@ A segment is a cylinder of the chain's radius a: it has the mass m of a uniform 
 about its axis as m a²/4 of each director.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 

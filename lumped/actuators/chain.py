@@ -17,8 +17,6 @@ half length, the bending and the twist of its end segment, which may turn about 
 the curvature of the next joint. Two chains that share a corner have its point and director in common.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -99,8 +97,7 @@ class BoundChain:
         """Return the weight (rows, 3) [N] of the segments: the mass matrix times an acceleration of the
         points, since directors do not move in a translation. Chains off the mean axis load the directors
         too."""
-        weight: np.ndarray = self.mass[:, : self.frames.points].sum(axis=1)[:, None] * acceleration
-        return weight
+        return self.mass[:, : self.frames.points].sum(axis=1)[:, None] * acceleration
 
     def force(self, y: np.ndarray, drive: Drive) -> tuple[float, np.ndarray]:
         """Return the joints' energy [J] and the gradient of energy + σ ds λ·Φ, (rows, 3) [N]."""

@@ -12,8 +12,6 @@ held twice along itself are refused (`scenes.meaning.corners`). Across the sheet
 left out if on the flat sheet it follows from the constraints elsewhere and at earlier corners.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

@@ -9,8 +9,6 @@ support moves over time: with an end that moves so the integrators do not keep t
 and beside an edge moved rigidly, the sheet alone holds it. Chains on one edge are one actuator model.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
@@ -193,16 +191,13 @@ class Coupling:
 
     def on_rows(self, body: BoundChain, exerted: np.ndarray) -> np.ndarray:
         """Return the force (rows, 3) [N] that holds a body's rows and the masses bound to them."""
-        bound: np.ndarray = exerted[body.place] + body.binding.T @ exerted[body.masses]
-        return bound
+        return exerted[body.place] + body.binding.T @ exerted[body.masses]
 
     def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin of the forces that hold the actuators, corners of
         chains included; exerted: (size, 3) [N] that holds masses and rows."""
-        total = np.zeros(3)
-        for actuator, acting in self._acting(u, exerted):
-            total += actuator.held_moment(acting, drive)
-        return total
+        moments = (actuator.held_moment(acting, drive) for actuator, acting in self._acting(u, exerted))
+        return sum(moments, np.zeros(3))
 
     def moment(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin of forces (size, 3) [N] on the bodies' points and
@@ -254,12 +249,8 @@ def _chains(scene: Scene, lattice: Lattice, moved: np.ndarray) -> tuple[list[Bou
         masses = masses[~excluded[masses]]
         taken[masses] = True
         scale = scene.material.young * scene.sheet.thickness
-        has_director = {
-            end: edge == corner.edges[0]
-            for corner in shared
-            for other, end in zip(corner.edges, corner.ends, strict=True)
-            if other == edge
-        }
+        ends = [(one.edges.index(edge), one.ends) for one in shared if edge in one.edges]
+        has_director = {both[number]: number == 0 for number, both in ends}
         names, data = tuple(chains), list(chains.values())
         body = BoundChain(data, names, scene.sheet, lattice, masses, scale, held, has_director, start)
         bodies.append(body)

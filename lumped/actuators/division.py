@@ -9,8 +9,6 @@ an error of the second order in their length: a strip with six undivided segment
 than their chords by 1 + φ²/24 and a sheet resists the stretch, and loads on joints are a trapezoidal rule.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.actuators.frames import Frames
@@ -52,12 +50,9 @@ def mean_curvatures(chain: Chain, frames: Frames) -> np.ndarray:
     """Return the share (joints, pieces) of each joint's length, in a divided chain, that lies in each piece
     of constant curvature."""
     ground, count = frames.segments, frames.segments
-    ends = np.array(
-        [
-            (after if before == ground else before + 0.5, before + 1 if after == ground else after + 0.5)
-            for before, after, _ in frames.joints
-        ]
-    )
+    before, after, _ = np.array(frames.joints).T
+    start = np.where(before == ground, after, before + 0.5)
+    ends = np.column_stack([start, np.where(after == ground, before + 1, after + 0.5)])
     bounds = chain.pieces() * (count // chain.segments)
     common = np.minimum(ends[:, 1:], bounds[1:]) - np.maximum(ends[:, :1], bounds[:-1])
     return np.asarray(np.maximum(common, 0.0) / (ends[:, 1:] - ends[:, :1]))

@@ -22,8 +22,6 @@ but of unit length, and for one of the two chains a multiple of the other's (`lu
 Source: Betsch and Steinmann (2001), García de Jalón's natural coordinates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from itertools import combinations_with_replacement, pairwise
 from typing import NamedTuple
@@ -149,23 +147,20 @@ class Frames:
 
     def gradient(self, slopes: np.ndarray) -> np.ndarray:
         """Return derivatives (k, coordinates, 3) of the quantities by the coordinate rows."""
-        by_row: np.ndarray = np.matmul(self._map.T, slopes)
-        return by_row
+        return np.matmul(self._map.T, slopes)
 
     def ground_couple(self, at: Measured, weights: np.ndarray) -> np.ndarray:
         """Return the moment (3,) [N·m] that keeps the ground's frame from turning: Σ v × Σ weight × slope by
         v."""
         ground = slice(3 * self.segments, 3 * self.segments + 3)
         pull = np.tensordot(weights, at.slopes[:, ground], axes=1)
-        couple: np.ndarray = np.cross(at.vectors[ground], pull).sum(axis=0)
-        return couple
+        return np.cross(at.vectors[ground], pull).sum(axis=0)
 
     def curvature_of(self, weights: np.ndarray) -> np.ndarray:
         """Return Σ weight × second derivative of its quantity, (coordinates, coordinates), for each axis."""
         coupled = np.zeros((len(self._constant), len(self._constant)))
         np.add.at(coupled, (self._first, self._second), self._weight * weights[self._quantity])
-        form: np.ndarray = self._map.T @ (coupled + coupled.T) @ self._map
-        return form
+        return self._map.T @ (coupled + coupled.T) @ self._map
 
     def end_point(self, end: int) -> int:
         """Return the number of the point at an end (0 or 1)."""

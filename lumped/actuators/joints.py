@@ -10,8 +10,6 @@ Derivatives follow from ∂g/∂c = −1/ρ² and ∂g/∂w = (c/ρ² − g)/2w,
 Arrays over the joints: measures (j, 3) = (s_1, s_2, c); angles (j, 2).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 SERIES = 1e-6  # w below which the series is used; it leaves out terms of order w²
@@ -66,5 +64,4 @@ def average_gradient(
     before, after = (derivatives(at, stiffness, rest)[0] for at in (start, end))
     stored = after - before
     miss = np.where(moving, stored - (middle * change).sum(axis=1), 0.0)
-    corrected: np.ndarray = middle + (miss / np.where(moving, size, 1.0))[:, None] * change
-    return corrected
+    return middle + (miss / np.where(moving, size, 1.0))[:, None] * change

@@ -86,9 +86,7 @@ def each_cell(
     widths = [[across.mean] if even else across.widths for across in lines]
     if section is None:
         plain = CellSection.of(Constants.of(sheet, material))
-        section = plain.map(
-            lambda part: part[None, None] if even else np.broadcast_to(part, (*shape, *part.shape))
-        )
+        section = plain.map(lambda part: np.broadcast_to(part, (*shape, *part.shape)))
     sides = np.stack(np.meshgrid(*widths), axis=-1)
     if cells is not None and cells.growth is not None:
         sides = sides * cells.growth
@@ -96,12 +94,12 @@ def each_cell(
     return GridCells(sheet, material, grid, grading, lines, cells, sides, section, covered)
 
 
-def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: CellSection) -> Calibration:
+def with_shares(springs: Calibration, sheet: Sheet, material: Material, cells: CellSection) -> Calibration:
     """Return springs of equal cells, scaled to the cells of a sheet with an outline or cutouts.
 
     Parameters
     ----------
-    found : Calibration
+    springs : Calibration
         Springs of a whole rectangle, alike in all cells.
     sheet : Sheet
         Length, width and thickness.
@@ -116,5 +114,5 @@ def with_shares(found: Calibration, sheet: Sheet, material: Material, cells: Cel
         Spring constants cell by cell, times the factor of each cell's bending stiffness.
     """
     whole = CellSection.of(Constants.of(sheet, material)).bending[0, 0]
-    springs = Springs.read(found.springs).scaled(cells.bending[..., 0, 0] / whole)
-    return replace(found, springs=springs.table(), cells=cells)
+    scaled = Springs.read(springs.springs).scaled(cells.bending[..., 0, 0] / whole)
+    return replace(springs, springs=scaled.table(), cells=cells)

@@ -18,8 +18,6 @@ The method `cauchy` has 1, 1/3, 1 for all ν: the isotropic central-force lattic
 for which it is meant; its lz makes A66 a third of A, and A11 is matched but for δ.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -40,8 +38,7 @@ def coefficients(poisson: float) -> np.ndarray:
     from scipy.interpolate import make_interp_spline
 
     at, *columns = np.array(ROWS).T
-    values: np.ndarray = make_interp_spline(at, np.transpose(columns), k=1)(np.clip(poisson, at[0], at[-1]))
-    return values
+    return make_interp_spline(at, np.transpose(columns), k=1)(np.clip(poisson, at[0], at[-1]))
 
 
 def central(grid_cells: GridCells) -> tuple[Springs, list[str]]:

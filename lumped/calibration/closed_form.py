@@ -54,8 +54,6 @@ square cells is too small by (q l)² sin² 2θ/48 times
 which is 3ν − 1 + 2 S*/κGh for a third and vanishes (`waves`) for a d from 0.27 to 0.54, ν from 0 to ½.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -183,9 +181,7 @@ def closed_form(
     lz2 = np.where(exists, lz2, 1.0 if not distance_given else lz2)
     middle = membrane * lz2[:, None, None] - lattice
     mid_area = np.where(fibres, 0.0, middle[:, 0, 1])
-    of |= {
-        f"mid_{name}": np.where(fibres, middle[:, row, column], 0.0) for name, row, column in COUPLED_STRAINS
-    }
+    of |= {f"mid_{name}": np.where(fibres, middle[:, i, j], 0.0) for name, i, j in COUPLED_STRAINS}
     middle[:, :2, :2] -= mid_area[:, None, None]
     middle[np.abs(middle) < 1e-12 * (membrane[:, 0, 0] * lz2)[:, None, None]] = 0.0
     across = np.sqrt(squares[:, ::-1] / squares).T
@@ -208,13 +204,26 @@ def _anisotropic(form: np.ndarray) -> np.ndarray:
 
 
 def _split(layer: np.ndarray, ratios: np.ndarray, oblique: np.ndarray, anisotropic: np.ndarray) -> Split:
-    """Return, of layers (m, 3, 3), the share f of C66 in diagonals (m,), the parts of C11 and C22 in axial
-    links (m, 2), and whether cells need couplings (m,)."""
-    by_diagonals = _by_diagonals(layer, ratios)
+    """Return, of layers (m, 3, 3), the share f of C66 in diagonals (m,), half of the share at which axial
+    links vanish, the parts of C11 and C22 in axial links (m, 2), and whether cells need couplings (m,).
+
+    Cells at an angle to the fibres (`oblique`) need them, and cells of an `anisotropic` sheet whose area
+    springs would leave the links along the sides less than a third of E h (`gradients`). Axial links beside
+    couplings have a third of E h."""
+    limit = 0.5 * np.maximum(_normal(layer) - layer[:, 0, 1, None], 0.0)
+    target = layer[:, 2, 2, None] * (ratios - 1.0)
+    shares = np.divide(limit, target, out=np.ones_like(limit), where=target > limit)
+    by_diagonals = np.minimum(1.0, shares.min(axis=1))
     axial = _normal(layer) - (layer[:, 0, 1] - by_diagonals * layer[:, 2, 2] * (1.0 - ratios).T).T
-    axial, fibres = _with_fibres(oblique, anisotropic, layer, axial)
+    candidate = oblique | anisotropic
+    if not candidate.any():
+        return by_diagonals, axial, candidate
+    candidate &= oblique | (np.linalg.eigvalsh(layer)[:, 0] > 0.0)
+    third = np.zeros_like(axial)
+    third[candidate] = 1.0 / (3.0 * _normal(np.linalg.inv(layer[candidate])))
+    fibres = candidate & (oblique | (axial < third).any(axis=1))
     by_diagonals[fibres] = 0.0
-    return by_diagonals, axial, fibres
+    return by_diagonals, np.where(fibres[:, None], third, axial), fibres
 
 
 def _of_layer(layer: np.ndarray, split: Split, sides: np.ndarray) -> dict[str, np.ndarray]:
@@ -241,23 +250,6 @@ def _largest_eigenvalue(form: np.ndarray, by: np.ndarray) -> np.ndarray:
     return np.asarray(np.linalg.eigvalsh(inverse @ form @ np.swapaxes(inverse, 1, 2))[:, -1])
 
 
-def _with_fibres(
-    oblique: np.ndarray, anisotropic: np.ndarray, layer: np.ndarray, axial: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the parts of a layer's 11 and 22 in axial links, (m, 2), and whether its cells need couplings,
-    (m,). Cells at an angle to the fibres (`oblique`) need them, and cells of an `anisotropic` sheet whose
-    area springs would leave the links along the sides less than a third of E h (`gradients`). Axial links
-    beside couplings have a third of E h."""
-    candidate = oblique | anisotropic
-    if not candidate.any():
-        return axial, candidate
-    candidate &= oblique | (np.linalg.eigvalsh(layer)[:, 0] > 0.0)
-    third = np.zeros_like(axial)
-    third[candidate] = 1.0 / (3.0 * _normal(np.linalg.inv(layer[candidate])))
-    fibres = candidate & (oblique | (axial < third).any(axis=1))
-    return np.where(fibres[:, None], third, axial), fibres
-
-
 def diagonals_for_waves(target: Moduli, area: np.ndarray, bracket: np.ndarray) -> np.ndarray:
     """Return the diagonals' share d of the shear (m,) that makes oblique waves right in l². area: (m,) [m²]
     of the cells; bracket: (m,) the factor of the error for d = 0, 5 + 3 ν for links."""
@@ -266,15 +258,6 @@ def diagonals_for_waves(target: Moduli, area: np.ndarray, bracket: np.ndarray) -
     linear = 12.0 * stiffening + 9.0
     product = 36.0 * bracket * stiffening
     return np.asarray((linear - np.sqrt(linear**2 - product)) / 18.0)
-
-
-def _by_diagonals(layer: np.ndarray, ratios: np.ndarray) -> np.ndarray:
-    """Return f (m,), the share of a layer's C66 in diagonals: half of the share at which axial links
-    vanish."""
-    limit = 0.5 * np.maximum(_normal(layer) - layer[:, 0, 1, None], 0.0)
-    target = layer[:, 2, 2, None] * (ratios - 1.0)
-    shares = np.divide(limit, target, out=np.ones_like(limit), where=target > limit)
-    return np.minimum(1.0, shares.min(axis=1))
 
 
 def _on_sides(form: np.ndarray) -> np.ndarray:

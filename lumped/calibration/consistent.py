@@ -4,8 +4,6 @@ and along free, hinged and held edges the twist of a plate (`lumped.calibration.
 Every cell of a graded grid has its closed form (`lumped.calibration.cell_by_cell`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -84,9 +82,9 @@ def consistent(
         springs = springs_of_cells(grid_cells, layer_distance, **special(method))
     except NoClosedForm as cell:
         if not even:
-            given = (
-                f"{grid[2]} layers" if layer_distance is None else f"layer_distance = {layer_distance:g} m"
-            )
+            given = f"{grid[2]} layers"
+            if layer_distance is not None:
+                given = f"layer_distance = {layer_distance:g} m"
             if grid_cells.target.mixed.any():
                 raise BadInput(
                     f"layer: not symmetric about the middle: no springs with {given} match the laminate; "
@@ -99,9 +97,8 @@ def consistent(
         springs = fit_moduli(grid_cells, layer_distance)
     notes: list[str] = []
     cell_moduli = moduli.of_cells(springs, grid_cells.sides, grid[2])
-    if cell_moduli.mixed[
-        ..., :2, 2
-    ].any():  # the moment that fades at an edge depends on the stretch along it too
+    # the moment that fades at an edge depends on the stretch along it too
+    if cell_moduli.mixed[..., :2, 2].any():
         notes = ["layers that twist when pulled: cells along edges are not corrected, the order is 1"]
     elif method != "consistent-interior":
         springs, notes = with_twist(grid_cells, springs, cell_moduli)

@@ -30,8 +30,6 @@ quadratic in ψ_1 − ψ_0 alone, so f follows from one solution for the rest. D
 torsion constant is Saint-Venant's.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -63,9 +61,8 @@ class Twist(NamedTuple):
 def twist_of(grid_cells: GridCells, springs: Springs, cell_moduli: moduli.Moduli) -> Twist:
     """Return the twisting of cells; cell_moduli: of their springs."""
     shear, shares = cell_moduli.free_shear[..., ::-1], diagonals_share(grid_cells, springs)[..., ::-1]
-    twisting, stretch = (
-        of(cell_moduli.free_bending) for of in (sections.twisting, sections.stretch_by_twist)
-    )
+    bending = cell_moduli.free_bending
+    twisting, stretch = sections.twisting(bending), sections.stretch_by_twist(bending)
     return Twist(grid_cells.sides, twisting, shear, shares, stretch, grid_cells.section.layer_width)
 
 
@@ -99,9 +96,8 @@ class Strips(NamedTuple):
                 strips[0] = np.repeat(strips[0], number, axis=1)
             elif both and self.lines is not None and not symmetric(self.lines):
                 strips = [np.hstack([row, row[:, ::-1]]) for row in strips]
-            factor[usable] = edge_factors(
-                strips[0], strips[1], strips[2], strips[3], self.twist.lost[at], both
-            )
+            width, twisting, shear, shares = strips
+            factor[usable] = edge_factors(width, twisting, shear, shares, self.twist.lost[at], both)
         all_found = bool(np.all(factor > 0.0))
         factor = np.where(np.isnan(factor), MOST, factor)
         factor = np.where(self.corner[place, cell], np.maximum(factor, AT_CORNERS), factor)

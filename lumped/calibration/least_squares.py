@@ -7,8 +7,6 @@ possible. Residuals are relative to the sheet's moduli (off-diagonal terms to D1
 weigh more than stretching, since a soft sheet bends first.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -25,14 +23,8 @@ MATCHED = 1e-6  # weighted miss that counts as none
 PLACES = [0, 0, 1, 2], [0, 1, 1, 2]  # entries of a form whose misses count
 SCALES = [0, 0, 0, 2], [0, 0, 0, 2]  # entries that the misses are divided by
 WEAK = 1e-4  # weight of the strain springs themselves, where they are needed
-UNKNOWNS = (
-    *(f"{name}_{direction}" for name in PAIRS for direction in "xy"),
-    "diagonal",
-    "cross_diagonal",
-    "shear",
-    "mid_shear",
-    *FREE,
-)
+UNKNOWNS = tuple(f"{name}_{direction}" for name in PAIRS for direction in "xy")
+UNKNOWNS += ("diagonal", "cross_diagonal", "shear", "mid_shear", *FREE)
 
 
 def fit_moduli(grid_cells: GridCells, layer_distance: float | None = None) -> Springs:

@@ -1,7 +1,5 @@
 """Calibration methods that need the sheet and its material alone, by name; springs of a scene's table."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial

@@ -1,8 +1,6 @@
 """Report of the moduli of the sheet and of a lattice's cells, with notes on moduli that the lattice
 misses."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -32,9 +30,8 @@ def report(
     cell without positive energy.
     """
     (sides, section), sheet = grid_cells.present, grid_cells.target
-    cell_moduli = (
-        moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2]) if cell_moduli is None else cell_moduli
-    )
+    if cell_moduli is None:
+        cell_moduli = moduli.of_cells(springs, grid_cells.sides, grid_cells.grid[2])
     covered = np.broadcast_to(grid_cells.covered, cell_moduli.shear.shape[:2])
     got = moduli.Moduli(*(part[covered] for part in vars(cell_moduli).values()))
     rigidity, rigidity_y = sheet.bending[:, 0, 0], sheet.bending[:, 1, 1]
@@ -51,40 +48,33 @@ def report(
     rows: dict[str, dict[str, Any]] = {}
     worst = np.where(off_most, rigidity, 0.0).argmax(axis=1)
     for name, at, *values in zip(names, worst, targets, results, misses, strict=True):
-        asked_got_miss = (float(of_cells[at]) for of_cells in values)
-        rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), asked_got_miss, strict=True))}
+        target_got_miss = (float(of_cells[at]) for of_cells in values)
+        rows[name] = {"name": name, **dict(zip(("asked", "got", "miss"), target_got_miss, strict=True))}
         if name.startswith("S"):
             axes = {"Sy": (1, 1), "Sxy": (0, 1)}.get(name, (0, 0))
             rows[name]["kappa_G_h"] = float(section.shear[at, *axes])
     areas = springs["area"], springs["mid_area"]
-    constants = "area = {}, mid_area = {} N/m".format(*map(_range_text, areas))
+    ends = [sorted({of_cells.min(), of_cells.max()}) for of_cells in areas]
+    ranges = (" … ".join(f"{end:.4g}" for end in both) for both in ends)
+    constants = "area = {}, mid_area = {} N/m".format(*ranges)
     negative = min(map(np.min, areas)) < 0.0
     coupled = springs.of.keys() & {*COUPLINGS, *MID_COUPLINGS}
     forms = (got.membrane, got.free_bending) if negative or coupled or mixed else ()
     if any(np.linalg.eigvalsh(form).min() <= 0.0 for form in forms):
         raise BadInput(f"{constants}: the cell's energy is not positive")
-    off = [
-        f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %"
-        for row, at, size in zip(rows.values(), worst, sizes, strict=True)
-        if abs(row["got"] - row["asked"]) > 0.01 * size[at]
-    ]
+    sized = [(row, size[at]) for row, at, size in zip(rows.values(), worst, sizes, strict=True)]
+    missed = [row for row, size in sized if abs(row["got"] - row["asked"]) > 0.01 * size]
+    off = [f"{row['name']} by {number(100.0 * row['miss'], '+.1f')} %" for row in missed]
     notes = [f"these springs miss {', '.join(off)}"] if off else []
     if off and not springs.of.keys() & {"area", "shear"}:
         notes.append("central links alone obey Cauchy's relation C12 = C66: no k meets D12 and D66 both")
     if negative:  # ν < 1/3
         notes.append(f"{constants}: negative area springs are admissible here, the cell's energy is positive")
     settings: dict[str, Any] = {"grading": grid_cells.grading, "cells": grid_cells.cells}
-    return Calibration(
-        method, grid_cells.grid, springs.table(), tuple(rows.values()), (*notes, *more), **settings
-    )
+    reported, remarks = tuple(rows.values()), (*notes, *more)
+    return Calibration(method, grid_cells.grid, springs.table(), reported, remarks, **settings)
 
 
 def _reference(name: str) -> str:
     """Return the modulus that gives the scale of another: D11 for D12, D16 and D26, Sx for Sxy."""
     return f"{name[0]}11" if name[1:] in ("12", "16", "26") else name.replace("Sxy", "Sx")
-
-
-def _range_text(values: np.ndarray) -> str:
-    """Return a number, or the least and the largest number of the cells, as text."""
-    least, most = values.min(), values.max()
-    return f"{least:.4g}" if least == most else f"{least:.4g} … {most:.4g}"

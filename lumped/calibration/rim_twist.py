@@ -16,8 +16,6 @@ any angle, 0.9 to 0.98 of the width of twist that it loses along one of its line
 (`tests/lumped/calibration/test_oblique_rims.py`).
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from dataclasses import replace
 

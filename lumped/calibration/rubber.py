@@ -18,8 +18,6 @@ has the layer distance t h/√(L² − 1), t = 1/(λ₁ λ₂) the stretch of it
 G h and ν.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tables of spring constants and moduli from a calibration's document."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 
@@ -28,11 +26,8 @@ def springs(calibration: dict[str, Any]) -> Table:
             ends = [float(nonzero.min()), float(nonzero.max())] if unequal else [k]
             rows.append((f"{name} {axis}".strip(), meaning, *ends))
     headings = ("least", "largest") if unequal else ("stiffness",)
-    columns = (
-        Column("spring"),
-        Column("what it is", prose=True),
-        *(Column(heading, "N/m", "N/m", 1.0, "#.6g") for heading in headings),
-    )
+    constants = (Column(heading, "N/m", "N/m", 1.0, "#.6g") for heading in headings)
+    columns = (Column("spring"), Column("what it is", prose=True), *constants)
     note = f"layer distance {1e3 * calibration['layer_distance']:.6g} mm"
     return Table("Spring constants", columns, tuple(rows), "springs", text=note)
 
@@ -50,25 +45,14 @@ def moduli(calibration: dict[str, Any]) -> Table:
         off = (got - target) / target if target else None
         sheet = row.get("kappa_G_h", target)
         rows.append((row["name"], UNITS.get(row["name"][:1], ""), sheet, target, got, off))
-    columns = (
-        Column("modulus"),
-        Column("unit"),
-        Column("sheet", form="#.6g"),
-        Column("target", form="#.6g"),
-        Column("lattice", form="#.6g"),
-        Column("off target by", "", "%", 100.0, "z.2f"),
-    )
+    values = (Column(name, form="#.6g") for name in ("sheet", "target", "lattice"))
+    columns = (Column("modulus"), Column("unit"), *values, Column("off target by", "", "%", 100.0, "z.2f"))
     note = (
         "S: the target is S*, 1/S* = 1/κGh + l²/12D11, below the sheet's κGh on purpose: cells of length l "
         "are too stiff in shear by l²/12D11"
     )
-    return Table(
-        "Moduli of the sheet and of the lattice",
-        columns,
-        tuple(rows),
-        "moduli",
-        text=note + _edges(calibration),
-    )
+    caption, note = "Moduli of the sheet and of the lattice", note + _edges(calibration)
+    return Table(caption, columns, tuple(rows), "moduli", text=note)
 
 
 def _edges(calibration: dict[str, Any]) -> str:

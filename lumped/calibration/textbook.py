@@ -15,8 +15,6 @@ Constructions without a layer distance (van-gelder, lloyd) have layers at Â± h/â
 stiffness of their in-plane stiffness, and cross-layer links with the shear stiffness S* of `lumped.moduli`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -76,10 +74,8 @@ def uniform(grid_cells: GridCells, k: float | None = None, layer_distance: float
     families = ("axial", "diagonal", "vertical", "cross", "cross_diagonal")
     unit = Springs.made(distance, **dict.fromkeys(families, 1.0))
     if k is None:
-        k = (
-            grid_cells.target.bending[0, 0, 0]
-            / moduli.of_cells(unit, grid_cells.sides, layers).bending[0, 0, 0, 0]
-        )
+        by_unit = moduli.of_cells(unit, grid_cells.sides, layers).bending[0, 0, 0, 0]
+        k = grid_cells.target.bending[0, 0, 0] / by_unit
     return Springs.made(distance, **dict.fromkeys(families, k))
 
 

@@ -1,7 +1,5 @@
 """The integrators by name, with their declared order of accuracy."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from lumped.dynamics.explicit.step_limit import step_limit
@@ -14,9 +12,8 @@ from lumped.dynamics.system import System
 from sheetbench.choices import AUTO
 from sheetbench.errors import BadInput
 
-INTEGRATORS: dict[str, type[Integrator]] = {
-    kind.name: kind for kind in (GeneralisedAlpha, Esdirk, Verlet, Midpoint)
-}
+KINDS: tuple[type[Integrator], ...] = (GeneralisedAlpha, Esdirk, Verlet, Midpoint)
+INTEGRATORS = {kind.name: kind for kind in KINDS}
 SHORTEST = 0.25  # share of the undamped explicit step below which implicit steps take less time
 
 

@@ -52,7 +52,7 @@ class Maxwell:
 
     def at_rest(self, u: np.ndarray) -> np.ndarray:
         """Return the memory of relaxed branches at displacement u (n, 3) [m]."""
-        return self.branches.at_rest(self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)[1])
+        return self.branches.at_rest(self._measures(u))
 
     def step(self, memory: np.ndarray, ahead: float) -> Maxwell:
         """Return the branches `ahead` [s] after a state with a given memory."""
@@ -68,13 +68,12 @@ class Maxwell:
     def add_force(self, u: np.ndarray, force: np.ndarray, spring_factor: float | None = None) -> float:
         """Add the springs' force with their branches' to `force` (n, 3) [N]; return the springs' energy [J],
         branches excluded. spring_factor: factor of the springs' law, `gain` unless given."""
-        return self._add_forces(
-            u, force, self.gain if spring_factor is None else spring_factor, self.now.past
-        )[0]
+        factor = self.gain if spring_factor is None else spring_factor
+        return self._add_forces(u, force, factor, self.now.past)[0]
 
     def after(self, u: np.ndarray) -> np.ndarray:
         """Return the memory at displacement u (n, 3) [m] in the current step or stage."""
-        return self.now.after(self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)[1])
+        return self.now.after(self._measures(u))
 
     def add_branch_force(self, u: np.ndarray, memory: np.ndarray, force: np.ndarray) -> None:
         """Add the force of the branches alone with the stresses of a memory."""
@@ -86,6 +85,10 @@ class Maxwell:
         """Add the branches' force of a step to u (n, 3) [m], by their mean stresses at its middle (n, 3) [m];
         before: the memory at the start."""
         self.add_branch_force(middle, 0.5 * (before + self.after(u)), force)
+
+    def _measures(self, u: np.ndarray) -> np.ndarray:
+        """Return X (2, m) of all springs."""
+        return self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)[1]
 
     def _add_forces(
         self, u: np.ndarray, force: np.ndarray, spring_factor: float, past: np.ndarray
@@ -101,7 +104,6 @@ class Maxwell:
     def stresses(self, u: np.ndarray, spring_factor: float, past: float) -> list[np.ndarray]:
         """Return the stresses of every family for its tangent: own × the springs' stress at u plus past × the
         branches' constant stress in the step."""
-        _, x = self._add_forces(u, np.zeros_like(u), 0.0, self.now.past)
-        both = spring_factor * x[0] + past * self.now.past
+        both = spring_factor * self._measures(u)[0] + past * self.now.past
         pairs = zip(self._families, self._places, strict=True)
         return [both[place].reshape(len(f), *(f.measures,) * (f.measures > 1)) for f, place in pairs]

@@ -1,7 +1,5 @@
 """Prescribed motion g(t) of a lattice by supports, bindings and actuators, and its rates."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache
 

@@ -119,18 +119,18 @@ class System:
 
     @property
     def working(self) -> bool:
-        """Whether loads follow the sheet or change over time, or a natural state changes, so that there is no
-        potential."""
+        """Return whether there is no potential: loads follow the sheet or change over time, or a natural
+        state changes."""
         return not self.problem.loads.potential or self.growing is not None
 
     @property
     def resists(self) -> bool:
-        """Whether there is dissipation other than by branches."""
+        """Return whether there is dissipation other than by branches."""
         return self.damping.present or any(item.resists for item in self.items)
 
     @property
     def constrained(self) -> bool:
-        """Whether there are multipliers."""
+        """Return whether there are multipliers."""
         return bool(self.algebraic.any())
 
     def drive(self, time: float) -> Drive:
@@ -267,8 +267,7 @@ class System:
 
     def reduce(self, force: np.ndarray) -> np.ndarray:
         """Return the force on the free unknowns that have mass."""
-        reduced: np.ndarray = self.moving_part.T @ force.ravel()
-        return reduced
+        return self.moving_part.T @ force.ravel()
 
     def expand(self, unknowns: np.ndarray) -> np.ndarray:
         """Return the displacement (size, 3) of the free unknowns that have mass; multiplier rows are zero."""
@@ -288,11 +287,9 @@ class System:
         elastic, _, force = self.for_step(state).internal(state.u, state.v, state.time)
         if self.maxwell is not None and state.memory is not None:
             elastic += self.maxwell.branches.stored(state.memory)
-        energies = {
-            "kinetic": 0.5 * float(np.vdot(state.v, self.momentum(state.v))),
-            "elastic": elastic,
-            "potential": -float(np.sum(self.problem.loads.dead * state.u)),
-        }
+        kinetic = 0.5 * float(np.vdot(state.v, self.momentum(state.v)))
+        potential = -float(np.sum(self.problem.loads.dead * state.u))
+        energies = {"kinetic": kinetic, "elastic": elastic, "potential": potential}
         return energies, self.momentum(state.a) + force - self.external(state.u, state.time)
 
     def exerted(self, state: State) -> np.ndarray:

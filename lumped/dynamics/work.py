@@ -1,8 +1,6 @@
 """Work and power put into a lattice by moving supports, commands, loads without a potential, obstacles and
 natural states that change."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.dynamics.system import State, System

@@ -12,8 +12,6 @@ is changed: with tributary masses the fit made cross links fourteen times too st
 in statics.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -115,20 +113,15 @@ class FittedCalibration(Calibration):
         """Return the document of a calibration, with the springs' 95 % intervals: half widths as shares of
         the spring, of area springs as shares of the diagonal's stiffness."""
         report = self.identifiability
-        fit = {
-            "residual": self.residual,
-            "half_widths": report.half_widths if report else {},
-            "singular_values": report.singular_values if report else [],
-        }
+        widths, singular = (report.half_widths, report.singular_values) if report else ({}, np.empty(0))
+        fit = {"residual": self.residual, "half_widths": widths, "singular_values": singular}
         return {**super().document(), "fit": fit}
 
     def tables(self) -> tuple[Table, ...]:
         widths = self.identifiability.half_widths if self.identifiability else {}
         shares = {"area": "of the diagonal", "mid_area": "of the diagonal"}
-        rows = [
-            FitRow(name, shares.get(name, "of itself"), width if np.isfinite(width) else None)
-            for name, width in widths.items()
-        ]
+        finite = {name: width if np.isfinite(width) else None for name, width in widths.items()}
+        rows = [FitRow(name, shares.get(name, "of itself"), width) for name, width in finite.items()]
         caption = "Springs and their 95 % intervals from the data"
         return (*super().tables(), Table.of(FitRow, rows, caption, "fit"))
 

@@ -9,8 +9,6 @@ in it are named.
 Source: Bates and Watts, Nonlinear Regression Analysis (1988), chapters 1–2.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """All calibration methods by name, including fits to data, and the function `calibrate` that calls them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Any
@@ -89,9 +87,8 @@ def calibrate(
     options = {name: value for name, value in requested.items() if value is not None}
     for name, value in options.items():
         if name not in CALIBRATIONS[method].takes:
-            others = " and ".join(
-                f"'{other}'" for other, entry in CALIBRATIONS.items() if name in entry.takes
-            )
+            with_option = [f"'{other}'" for other, entry in CALIBRATIONS.items() if name in entry.takes]
+            others = " and ".join(with_option)
             unit = f" {UNITS[name]}" if name in UNITS else ""
             prefix = "" if name in ("targets", "cells") else f"{name} = {value:g}{unit}: "
             raise BadInput(f"{prefix}calibration '{method}' takes no {name}; {name} goes with {others}")

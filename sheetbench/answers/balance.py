@@ -8,8 +8,6 @@ depend on the shape: they are computed on the deformed sheet, for a linear model
 is compared with the model's tolerance and rounding.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -64,12 +62,8 @@ class Balance:
 
     def document(self) -> dict[str, Any]:
         """Return the residual for JSON: N, N·m, and as a fraction of the forces."""
-        return {
-            "force": self.force.tolist(),
-            "moment": self.moment.tolist(),
-            "relative": self.relative,
-            "holds": self.holds,
-        }
+        residual = {"force": self.force.tolist(), "moment": self.moment.tolist()}
+        return {**residual, "relative": self.relative, "holds": self.holds}
 
 
 def dead_force(

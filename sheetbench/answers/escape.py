@@ -4,8 +4,6 @@ A scene's name, its title and its probes' names may hold anything: escape sequen
 a browser, formulas for a spreadsheet. Every display of text calls one function of this module, once.
 """
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

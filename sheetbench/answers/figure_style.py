@@ -4,8 +4,6 @@ A paper's picture has the width of one column (89 mm) or of both (183 mm), as in
 the caption has it. Text that is needed to read the picture, as the scale of displacements, stays in it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from sheetbench.errors import BadInput, require_choice

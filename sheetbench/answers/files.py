@@ -1,7 +1,5 @@
 """Folders and documents: folders for files, and plain data as JSON."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

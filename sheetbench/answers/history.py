@@ -14,7 +14,7 @@ import numpy as np
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.report import Picture, Write
-from sheetbench.answers.solution import Status
+from sheetbench.answers.solution import COMPONENTS, Status
 from sheetbench.answers.table import MILLIMETRES, Column, Table, number
 from sheetbench.errors import BadInput
 
@@ -26,7 +26,6 @@ UNDAMPED = (
     "this sheet has no damping and does not settle; to damp it, give [material] loss_factor, "
     "damping_time or damping_rate, or [air] its drag"
 )
-COMPONENTS = ("ux", "uy", "uz")
 ENERGIES = ("kinetic", "elastic", "potential", "dissipated", "work")
 Displacement = Annotated[float, MILLIMETRES("z.3f")]
 
@@ -129,11 +128,8 @@ class History(Answer):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a table with a row per probe: its last displacement and its largest component."""
-        rows = [
-            ExcursionRow(name, *u[-1].tolist(), *[np.abs(u).max()])
-            for name, u in self.probes.items()
-            if len(u)
-        ]
+        moved = [(name, u) for name, u in self.probes.items() if len(u)]
+        rows = [ExcursionRow(name, *u[-1].tolist(), *[np.abs(u).max()]) for name, u in moved]
         end = self.time[-1] if len(self.time) else 0.0
         caption = f"Displacement at {end:g} s, and its largest component during the motion"
         return (Table.of(ExcursionRow, rows, caption, "probes"),)
@@ -212,12 +208,11 @@ class History(Answer):
         except ModuleNotFoundError:
             raise BadInput("to_xarray needs xarray: pip install xarray") from None
         moved = np.stack([*self.probes.values()]) if self.probes else np.empty((0, len(self.time), 3))
-        forces = {
-            f"reaction {name}": (("time", "axis"), f, {"units": "N"}) for name, f in self.reactions.items()
-        }
+        axes = ("time", "axis")
+        forces = {f"reaction {name}": (axes, f, {"units": "N"}) for name, f in self.reactions.items()}
         energies = {name: ("time", energy, {"units": "J"}) for name, energy in self.accounts.items()}
         return xarray.Dataset(
-            {"displacement": (("probe", "time", "axis"), moved, {"units": "m"}), **energies, **forces},
+            {"displacement": (("probe", *axes), moved, {"units": "m"}), **energies, **forces},
             {"time": ("time", self.time, {"units": "s"}), "probe": [*self.probes], "axis": [*"xyz"]},
             {"label": self.label, "integrator": self.integrator, "status": str(self.status)},
         )

@@ -1,7 +1,5 @@
 """The picture of a run: the probes over time, the energies below."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ Headings and prose are broken over lines at spaces. A table that is still too wi
 under the other, each with the columns that name the rows first. Only a word longer than the width is broken.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from io import StringIO
 from itertools import pairwise
@@ -67,12 +65,11 @@ def blocks(table: Table, width: int | None) -> list[Block]:
     """Return the table without its details, in blocks of at most `width` characters, or in one (None)."""
     width = width and max(width, LEAST)
     shown = [[terminal(text) for text in row] for row in table.shown_rows()]
-    strips = [
-        _Strip(column, terminal(name), terminal(unit), [row[i] for row in shown])
-        for i, column in enumerate(table.columns)
-        for name, unit in [column.heading(shown=True)]
-        if not column.detail
-    ]
+    strips = []
+    for i, column in enumerate(table.columns):
+        if not column.detail:
+            name, unit = map(terminal, column.heading(shown=True))
+            strips.append(_Strip(column, name, unit, [row[i] for row in shown]))
     rows = [*zip(*(strip.cells for strip in strips), strict=True)]
     if table.grouped and _fits(strips, width):
         firsts = strips[0].cells

@@ -1,22 +1,21 @@
 """Natural modes of a model, its frequencies as an answer, and its buckling modes."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Annotated, Any
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.table import HERTZ, NUMBER, Table
-from sheetbench.errors import BadInput
+from sheetbench.errors import BadInput, Impossible
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted
 from sheetbench.scenes.objects.loads import EdgeLoad
 from sheetbench.scenes.scene import Scene
 
 STILL = 1e-9  # displacement over the sheet's side below which a loaded sheet does not move
+COINCIDENT = 1e-6  # largest relative difference of coincident frequencies
 
 
 @dataclass(frozen=True)
@@ -31,17 +30,35 @@ class FrequencyRow:
 class NaturalModes(Answer):
     """Base of a model's modes. frequencies: (count,) [Hz], rising. shapes: (count, n, 3), displacements of
     the model's nodes. rigid: the number of rigid motions, which are left out. unknowns: of the
-    eigenproblem."""
+    eigenproblem. gradient_of: function of a mode's number that returns the derivatives of its frequency."""
 
     file_name = "modes"
+    no_gradient: ClassVar[str]  # why modes have no derivatives, with {0} for the modes
     frequencies: np.ndarray
     shapes: np.ndarray
     rigid: int
     unknowns: int
+    gradient_of: Callable[[int], Any] | None = field(default=None, kw_only=True)
 
     @abstractmethod
     def displacement(self, points: np.ndarray) -> np.ndarray:
         """Return the mid-surface displacement of every mode (count, p, 3) at plan points (p, 2) [m]."""
+
+    def sensitivity(self, number: int) -> Any:
+        """Return the derivatives df/dθ [Hz per unit] of a mode's frequency by name (`mode_sensitivity` of the
+        model); number: from 1. Raises Impossible for modes without derivatives, where two frequencies
+        coincide, and for the last mode."""
+        if self.gradient_of is None:
+            raise Impossible(f"derivatives of frequencies: {self.no_gradient.format(self)}")
+        if not 1 <= number < len(self.frequencies):
+            last = len(self.frequencies) - 1
+            raise Impossible(f"mode {number}: derivatives need the next mode: choose 1 to {last}")
+        frequency = self.frequencies[number - 1]
+        coincident = np.abs(self.frequencies - frequency) <= COINCIDENT * frequency
+        if coincident.sum() > 1:
+            numbers = " and ".join(str(n + 1) for n in np.flatnonzero(coincident))
+            raise Impossible(f"modes {numbers} coincide: a single frequency of them has no derivative")
+        return self.gradient_of(number)
 
     def document(self) -> dict[str, Any]:
         return {"frequencies_hz": self.frequencies, "rigid_modes": self.rigid, "unknowns": self.unknowns}

@@ -180,10 +180,8 @@ class Report:
         """Return the writers of all files but the pictures, by the files' names. made_with: a line under the
         page."""
         page = self.page or self.name
-        texts = {
-            f"{self.name}.json": to_json(self.document),
-            **{f"{table.name}.csv": table.to_csv() for table in self.tables if table.name},
-        }
+        texts = {f"{self.name}.json": to_json(self.document)}
+        texts |= {f"{table.name}.csv": table.to_csv() for table in self.tables if table.name}
         if self.tables:
             texts |= {f"{page}.md": self.to_markdown(made_with)}
         return {**self.attachments, **{name: partial(write_text, text=text) for name, text in texts.items()}}

@@ -10,8 +10,6 @@ and a band, which is less on strips, N (s + 1) d² and N (s + 1)² d³. Sources:
 346–358. Each model adds its own further needs.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import log2
 

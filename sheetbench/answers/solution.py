@@ -357,19 +357,12 @@ class Solution(Answer):
         u = self.mesh.point_data.get("displacement", np.zeros((1, 3)))
         largest = float(np.max(np.linalg.norm(u, axis=1)))
         cost = CostRow(self.unknowns, self.iterations, self.setup_seconds, self.solve_seconds, largest)
-        forces = summary.without_rounding(self.reactions)
+        probes = [ProbeRow(name, *u) for name, u in self.probes.items()]
+        forces = [ReactionRow(name, *f) for name, f in summary.without_rounding(self.reactions).items()]
         tables = (
             Table.of(CostRow, [cost], "Cost and largest displacement", "solution"),
-            Table.of(
-                ProbeRow,
-                [ProbeRow(name, *u) for name, u in self.probes.items()],
-                *("Displacement of the mid-surface", "probes"),
-            ),
-            Table.of(
-                ReactionRow,
-                [ReactionRow(name, *force) for name, force in forces.items()],
-                *("Force of each support on the sheet", "reactions"),
-            ),
+            Table.of(ProbeRow, probes, "Displacement of the mid-surface", "probes"),
+            Table.of(ReactionRow, forces, "Force of each support on the sheet", "reactions"),
         )
         return tuple(table for table in tables if table.rows)
 

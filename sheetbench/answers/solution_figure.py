@@ -1,7 +1,5 @@
 """The picture of a solution: heights of the deformed sheet over its plan."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

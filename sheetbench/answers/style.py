@@ -1,7 +1,5 @@
 """Style of plots for papers: fonts, neutral colours, text from scenes, and files in every format."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterable
 from pathlib import Path

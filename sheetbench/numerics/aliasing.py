@@ -7,8 +7,6 @@ number the compiler uses its ordinary analysis. Source: "noalias and alias.scope
 Reference.
 """
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 

@@ -4,8 +4,6 @@ Meshes, patterns and orders of elimination do not change from one solution to th
 the loads. Arrays of a cached result are read-only.
 """
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from collections.abc import Callable
 from functools import wraps

@@ -6,8 +6,6 @@ solved with the factors of their symmetric part if it is definite and close, els
 are refined and their residuals checked.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, partial

@@ -1,7 +1,5 @@
 """The lowest modes of K φ = λ M φ, K symmetric and M symmetric positive definite."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -4,8 +4,6 @@ Entry r of column p, counted from the first column's diagonal, lies at place + r
 The diagonal is inverted.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

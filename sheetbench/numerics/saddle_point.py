@@ -13,8 +13,6 @@ eigenvalues of the order of ε and below, whose error plain refinement removes s
 `minimal_residual` removes it in as many steps as they form groups (Eisenstat, Elman and Schultz 1983, GCR).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -12,8 +12,6 @@ eigenvalues far from zero are not detected.
 Source: Bolotin, Nonconservative Problems of the Theory of Elastic Stability (1963).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -4,8 +4,6 @@ The dense blocks here are small: a second BLAS thread gains nothing, and on a bu
 single solves of a 9×9×2 lattice take up to two seconds instead of a few milliseconds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache

@@ -1,7 +1,5 @@
 """Record of a motion as a `History`: its recipe, the storage of its samples, its notes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack

@@ -1,7 +1,5 @@
 """Division of a run into samples."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -8,8 +8,6 @@ resumed run gives an equal file to the last bit; a run of other code is refused.
 duration. A folder has one writer at a time; links in it are not followed.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import zipfile

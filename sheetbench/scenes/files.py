@@ -1,7 +1,5 @@
 """Scenes in files: the catalogue that comes with the package, and a user's own TOML files."""
 
-from __future__ import annotations
-
 import tomllib
 from importlib import resources
 from pathlib import Path

@@ -107,9 +107,8 @@ class Scene(SceneFields, defer_build=False):
             own = {key: values.pop(key) for key in list(values) if key in kind.model_fields}
             if own:
                 values[part] = kind.model_validate(values.get(part, getattr(self, part))).replace(**own)
-        redrawn = any(
-            values.get(key, getattr(self, key)) != getattr(self, key) for key in ("sheet", "cutouts")
-        )
+        drawn = {key: values[key] for key in ("sheet", "cutouts") if key in values}
+        redrawn = any(value != getattr(self, key) for key, value in drawn.items())
         if redrawn and "probes" not in values and self.probes == super().replace(probes={}).probes:
             values["probes"] = {}
         return super().replace(**values)

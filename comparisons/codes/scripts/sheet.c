@@ -15,15 +15,14 @@ static real dot(const real *x, const real *y) { return x[0] * y[0] + x[1] * y[1]
 static void cross(const real *x, const real *y, real *z) {
   EACH(e) z[e] = x[(e + 1) % 3] * y[(e + 2) % 3] - x[(e + 2) % 3] * y[(e + 1) % 3];
 }
-/* a curve at a time, or its derivative: cubics {from, coefficients}, constant before and after */
-static double curve(int k, double t, int order) {
+/* sets a curve's value and two derivatives at a time: cubics {from, coefficients}, constant before and after */
+static void curve(int k, double t, double to[3]) {
   const int last = FIRST[k + 1] - 1;
   int n = FIRST[k];
   const double late = (KNOT[last][0] - KNOT[n][0]) * 1e-9;
   while (n < last && KNOT[n + 1][0] <= t + late) n++;
   const double *c = KNOT[n], x = t - c[0];
-  if (order == 2) return 2 * c[3] + 6 * x * c[4];
-  return order ? c[2] + x * (2 * c[3] + 3 * x * c[4]) : c[1] + x * (c[2] + x * (c[3] + x * c[4]));
+  to[0] = c[1] + x * (c[2] + x * (c[3] + x * c[4])), to[1] = c[2] + x * (2 * c[3] + 3 * x * c[4]), to[2] = 2 * c[3] + 6 * x * c[4];
 }
 static void average(field x) { /* the middles of columns */
   for (int i = N; i < ROWS; i++) EACH(e) x[i][e] = 0;
@@ -122,7 +121,7 @@ static double contact(sheet *s) { /* adds to f what obstacles press with; return
     const int is_round = body[6] > 0; /* of planes the offset is from where the point rests */
     double y[3], along = 0, square = 0, reach = (double)k[4] + body[6];
     EACH(e) {
-      y[e] = (is_round ? -body[e] : 0) - s->path[o + LOADED][0][e];
+      y[e] = (is_round ? -body[e] : 0) - s->path[o + LOADED][e][0];
       for (int c = 0; c < 4; c++) y[e] += k[c] * ((is_round ? SHEET_REST[POINT_AT[m][c]][e] : 0) + s->u[POINT_AT[m][c]][e]);
     }
     EACH(e) along += y[e] * body[3 + e];
@@ -154,7 +153,7 @@ static void resist(sheet *s, field velocity, real sign) { /* adds to f, so many 
     const real *to = s->touch[m], *k = POINT_ROW[POINT_OF[m]], size = root(dot(to, to)), tau = OBSTACLE[o][7];
     if (to[5] == 0) continue;
     real y[3], on[3], slip = (real)$slip;
-    EACH(e) y[e] = -(real)s->path[o + LOADED][1][e];
+    EACH(e) y[e] = -(real)s->path[o + LOADED][e][1];
     for (int c = 0; c < 4; c++) EACH(e) y[e] += k[c] * (real)velocity[POINT_AT[m][c]][e];
     const real leaving = dot(y, to) / size, along = to[5] * (tau * leaving < 1 ? tau * leaving : 1);
     EACH(e) y[e] -= leaving * to[e] / size, slip += y[e] * y[e];
@@ -200,26 +199,25 @@ static void accelerate(sheet *s, real half) { /* and v by half a step of it */
 }
 static void follow(sheet *s) { /* histories of factors, and what springs measure at rest, quadratic in natural ones */
   real *factor = s->input + SHEET_FACTORS;
+  double to[3];
   for (int k = 0; k < HISTORYS; k++)
-    if (!s->set[k] && HISTORY[k] >= 0) factor[k] = (real)curve(HISTORY[k], s->time, 0), s->changed = 1;
+    if (!s->set[k] && HISTORY[k] >= 0) curve(HISTORY[k], s->time, to), factor[k] = (real)to[0], s->changed = 1;
   for (int n = 0; s->changed && n < SHEET_GROWN; n++) s->grown[n] = 0;
   for (int k = 0, m = 0; s->changed && k < SHEET_SOURCES; k++)
     for (int l = -1; l <= k; l++, m++) /* alone, then times another */
       for (int n = 0; n < SHEET_GROWN; n++) s->grown[n] += GROWTH[m][n] * factor[k] * (l < 0 ? 1 : factor[l]);
   s->changed = 0;
 }
-/* a support or obstacle with the masses that it holds */
-static void move(sheet *s, int body, int e, double place, double rate) {
-  double *at = s->path[body][0], *by = s->path[body][1];
-  MASSES(i) if (OWNER[i][e] == body + 1) s->u[i][e] += place - at[e], s->v[i][e] += rate - by[e];
-  at[e] = place, by[e] = rate;
+/* a support or obstacle with the masses that it holds to a place, with a rate and an acceleration */
+static void move(sheet *s, int body, int e, const double to[3]) {
+  MASSES(i) if (OWNER[i][e] == body + 1) s->u[i][e] += to[0] - s->path[body][e][0], s->v[i][e] += to[1] - s->path[body][e][1];
+  EACH(k) s->path[body][e][k] = to[k];
 }
 static void move_all(sheet *s, real h) { /* a step on, over which masses have kept their velocity */
+  double to[3];
   for (int b = 0; b < SHEET_BODIES; b++) EACH(e) {
-    s->path[b][0][e] += h * s->path[b][1][e];
-    if (s->moved[b] || MOTION[b] < 0) continue;
-    move(s, b, e, curve(MOTION[b] + e, s->time, 0), curve(MOTION[b] + e, s->time, 1));
-    s->path[b][2][e] = curve(MOTION[b] + e, s->time, 2);
+    s->path[b][e][0] += h * s->path[b][e][1];
+    if (!s->moved[b] && MOTION[b] >= 0) curve(MOTION[b] + e, s->time, to), move(s, b, e, to);
   }
 }
 void sheet_reset(sheet *s) {
@@ -254,20 +252,23 @@ void sheet_set_force(sheet *s, int point, const real force[3]) { EACH(e) s->inpu
 void sheet_set_curvature(sheet *s, int source, real factor) { sheet_set(s, SHEET_FACTORS + source, factor); }
 void sheet_move_support(sheet *s, int body, const real displacement[3], const real velocity[3]) {
   s->moved[body] = 1;
-  EACH(e) move(s, body, e, displacement[e] - s->step * velocity[e], velocity[e]), s->path[body][2][e] = 0;
+  EACH(e) move(s, body, e, (double[3]){displacement[e] - s->step * velocity[e], velocity[e], 0});
 }
 real sheet_get(sheet *s, int output) {
   const int e = output % 3, part = output / 3, body = part - SHEET_POINTS;
   double sum = 0;
-  if (part < SHEET_POINTS) {
+  if (body < 0) {
     for (int n = PROBE[part]; n < PROBE[part + 1]; n++) sum += PROBE_SHARE[n] * s->u[PROBE_AT[n]][e];
-  } else if (body < SHEET_BODIES) {
-    MASSES(i) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->path[OWNER[i][e] - 1][2][e] : 0);
+  } else if (body >= SHEET_BODIES) {
+    if (e == SHEET_KINETIC) MASSES(i) EACH(x) sum += s->v[i][x] * across(s->v, i, x, P) / 2;
+    else sum = e == SHEET_ELASTIC ? s->stored : s->fallen;
+  } else {
+    MASSES(i) s->w[i][e] = s->a[i][e] + (OWNER[i][e] ? s->path[OWNER[i][e] - 1][e][2] : 0);
     sum = s->pressed[body][e];
-    for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
-      sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
-  } else if (e == SHEET_KINETIC) MASSES(i) EACH(x) sum += s->v[i][x] * across(s->v, i, x, P) / 2;
-  else sum = e == SHEET_ELASTIC ? s->stored : s->fallen;
+    if (body < SHEET_SUPPORTS)
+      for (int n = SUMMED[3 * body + e]; n < SUMMED[3 * body + e + 1]; n++)
+        sum += SUMMED_SHARE[n] * (across(s->w, (int)SUMMED_AT[n] / 3, e, P) + s->f[SUMMED_AT[n] / 3][e]);
+  }
   return (real)sum;
 }
 void sheet_probe(sheet *s, int point, real displacement[3]) { EACH(e) displacement[e] = sheet_get(s, 3 * point + e); }

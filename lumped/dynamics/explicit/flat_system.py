@@ -3,8 +3,6 @@
 Prescribed motions and the factors of loads are tabulated for a number of steps at a time.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.dynamics.explicit.steps import ExplicitArrays, ExplicitLoads, march

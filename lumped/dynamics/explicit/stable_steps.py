@@ -11,8 +11,6 @@ largest. Undamped both limits are 2/ω_max; large rotations and tension raise ω
 advised. ω_max is the higher frequency of the flat sheet and its equilibrium.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any

@@ -17,8 +17,6 @@ limit is exact. For other damping every x up to (ω_max h)² may occur with ever
 smallest x of the boundary counts, which is 3 from z = 1 on.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -55,10 +53,8 @@ class StepLimit:
         """Return the limit and its origin as text."""
         turn = self.frequency * self.step
         law = "2/ω_max" if self.damping_ratio == 0.0 else f"{turn:.3g}/ω_max"
-        return (
-            f"{self.step:.4g} s = {law} with ω_max = {self.frequency:.4g} rad/s "
-            f"and ξ = {self.damping_ratio:.3g}"
-        )
+        highest = f"ω_max = {self.frequency:.4g} rad/s and ξ = {self.damping_ratio:.3g}"
+        return f"{self.step:.4g} s = {law} with {highest}"
 
 
 def turn_limit(ratio: float, exact: bool = True) -> float:

@@ -15,8 +15,6 @@ loses F̄·(u₁ − u₀) − h³ F''v³/12. Their difference, without the term
 to 0.9 % of its fall, not 0.01 %.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.dynamics.explicit.flat_system import FlatSystem

@@ -14,8 +14,6 @@ something changes its course: a load's history, a support's motion. No chains: t
 the order.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -42,9 +40,7 @@ FIRST = 0.05  # first step over the time in which the first acceleration goes as
 STEP_TOLERANCE = 1e-11  # last correction of a fixed step relative to the sheet's side
 SHARE = 0.3  # last correction of an adaptive step relative to the error it may have, or to the default one
 SHARE_WITH_DAMPERS = 0.1  # whose power is that of the square of what corrections leave, along stiff springs
-STALE = (
-    1.5  # ratio of successive corrections above which a step, which begins with its own, makes factors anew
-)
+STALE = 1.5  # ratio of corrections above which a step, which begins with its own factors, makes new ones
 KEEP_FACTORS_UP_TO = 14  # corrections of a step's stages up to which the next one keeps the factors: two each
 END = np.eye(len(STAGES))[-1]  # weights of the stages at a step's end
 LENGTHEN_UP_TO = 22  # and up to which it may be longer: four each, beyond which shorter steps cost less
@@ -89,10 +85,12 @@ class Esdirk(Integrator):
             self._begin(state)
         state, at_most = self._from_kink(state, at_most)
         reached, began = self._largest, self._energies(state) if self.system.items else []
+        # the last correction [m] of the step's equations
+        enough = (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._small
 
         def attempt(h: float) -> tuple[EsdirkStep, float, float]:
             nonlocal reached
-            step = self._solved(state, h, self._enough)
+            step = self._solved(state, h, enough)
             error = h * largest(ERRORS, step.stages.v)
             error = max(error, self._largest * step.error_of_branches())
             reached = max(self._largest, largest(END, step.stages.u))
@@ -116,13 +114,8 @@ class Esdirk(Integrator):
 
     @property
     def _small(self) -> float:
-        """The error that an adaptive step may have, or the default one [m]."""
+        """Return the error that an adaptive step may have, or the default one [m]."""
         return min(self._error, ERROR) * self._largest
-
-    @property
-    def _enough(self) -> float:
-        """The last correction of an adaptive step's equations [m]."""
-        return (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._small
 
     def _begin(self, state: State) -> None:
         """Set the first step [s] and the displacement that errors are relative to before any motion:

@@ -9,8 +9,6 @@ which lies in equilibrium along stiff directions and on the polynomial along sof
 alone would have too much energy. Energies are polynomials through the stages' powers (`tableau.CUMULATIVE`).
 """
 
-from __future__ import annotations
-
 from contextlib import suppress
 
 import numpy as np
@@ -119,7 +117,7 @@ class EsdirkStep:
         times = (began + self.h * theta).tolist()
         u = stages.u[[0, -1]] - [motion.place(began), motion.place(until)]
         v = stages.v[[0, -1]] - [motion.rate(began), motion.rate(until, before=True)]
-        found = polynomials(u, v, stages.a, self.h, theta)
-        found[0] += np.array([motion.place(time) for time in times])
-        found[1] += np.array([motion.rate(time, before=True) for time in times])
-        return found
+        motions = polynomials(u, v, stages.a, self.h, theta)
+        motions[0] += np.array([motion.place(time) for time in times])
+        motions[1] += np.array([motion.rate(time, before=True) for time in times])
+        return motions

@@ -3,8 +3,6 @@
 What supports prescribe is taken as it is prescribed: accelerations are those beside it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.dynamics.implicit.newton import Newton, StepEquation
@@ -54,9 +52,9 @@ class GeneralisedAlpha(Integrator):
             allowed = ERROR * max(largest, 1e-6 * self.system.problem.size)
             return (after, algorithm), h * h * self._rule.error * jump, allowed
 
-        found, h = self.control.take(attempt, at_most, 1e-6 * self.control.step)
+        step, h = self.control.take(attempt, at_most, 1e-6 * self.control.step)
         self._largest = largest
-        return self._advance(state, *found, h)
+        return self._advance(state, *step, h)
 
     def _advance(self, state: State, after: State, algorithm: np.ndarray, h: float) -> Advance[State]:
         self._algorithm, self._before = algorithm, h

@@ -9,8 +9,6 @@ to the tolerance of the iteration; linear and angular momentum of a free sheet t
 (1992), Gonzalez (1996, 1999).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.dynamics.implicit.newton import Newton

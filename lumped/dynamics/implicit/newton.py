@@ -7,8 +7,6 @@
 except in the rows of multipliers, by compiled code where that exists.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -118,9 +116,9 @@ class Newton:
         corrections above which the factors are renewed; both by default the iteration's. Raises StepFailed,
         or SingularMatrixError."""
         limits = self._limits(tolerance, stale)
-        found = self._solve_compiled(equation, guess, limits)
-        if found is not None:
-            return found
+        solution = self._solve_compiled(equation, guess, limits)
+        if solution is not None:
+            return solution
         parts = equation.by, equation.residual, equation.blocks, guess
         return self.solve(*parts, limits.tolerance, stale=limits.stale)
 
@@ -139,12 +137,12 @@ class Newton:
         """Return the change (n, 3) [m] by the stored factors for a residual (m,), None without factors."""
         problem, band = self._system.problem, self._system.problem.system.band
         if self._factored is not None and band is not None:
-            found = banded.solve_unrefined(self._factors, band.width, band.order, residual)
+            solution = banded.solve_unrefined(self._factors, band.width, band.order, residual)
         elif self._factor is not None:
-            found = self._factor.solve(residual, SOLVED)
+            solution = self._factor.solve(residual, SOLVED)
         else:
             return None
-        return problem.expand(found)
+        return problem.expand(solution)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
         """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be
@@ -174,9 +172,8 @@ class Newton:
 
     def near(self, mass_coefficient: float) -> bool:
         """Return whether the compiled iteration's factors can be reused for an equation with this c₂."""
-        return (
-            self._factored is not None and abs(mass_coefficient / self._factored - 1.0) < REUSE_FACTORS_WITHIN
-        )
+        taken = self._factored
+        return taken is not None and abs(mass_coefficient / taken - 1.0) < REUSE_FACTORS_WITHIN
 
     def renew(self, equation: StepEquation, u: np.ndarray) -> None:
         """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""

@@ -5,21 +5,11 @@ Source: Kennedy and Carpenter (2019), Applied Numerical Mathematics 146, 221–2
 (Reynolds et al. 2023) has them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 GAMMA = 23 / 125  # on the diagonal of every stage but the first
 ABSCISSAE = np.array(
-    [
-        0.0,
-        46 / 125,
-        7121331996143 / 11335814405378,
-        49 / 353,
-        3706679970760 / 5295570149437,
-        347 / 382,
-        1.0,
-    ]
+    [0.0, 46 / 125, 7121331996143 / 11335814405378, 49 / 353, 3706679970760 / 5295570149437, 347 / 382, 1.0]
 )
 _INNER = (  # of stages 3 to 6, from the second column to the diagonal
     (791020047304 / 3561426431547,),
@@ -60,30 +50,30 @@ def _stages() -> np.ndarray:
 
 
 def _cumulative() -> np.ndarray:
-    """Return the coefficients (8, 7) of θ⁰ to θ⁷: the integral from 0 to θ of what passes through the values
+    """Return the coefficients (8, 7) of θ⁰ to θ⁷ in the integral from 0 to θ of the polynomial through values
     at the abscissae, corrected in proportion to θ so that it ends in the weights of the method."""
-    found = np.zeros((8, 7))
-    powers = np.linalg.inv(np.vander(ABSCISSAE, increasing=True))  # values → coefficients
-    found[1:] = powers / np.arange(1.0, 8.0)[:, None]
-    found[1] += WEIGHTS - found.sum(axis=0)
-    return found
+    coefficients = np.zeros((8, 7))
+    powers = np.linalg.inv(np.vander(ABSCISSAE, increasing=True))  # of the values
+    coefficients[1:] = powers / np.arange(1.0, 8.0)[:, None]
+    coefficients[1] += WEIGHTS - coefficients.sum(axis=0)
+    return coefficients
 
 
 def _guesses() -> np.ndarray:
     """Return G, (7, 7), the guess of each stage's acceleration from the earlier stages: its displacement lies
     on the parabola nearest to their displacements and velocities, h² A² v̇ and h A v̇ without the part of the
     start alone."""
-    found = np.zeros((7, 7))
-    found[1, 0] = 1.0
+    guesses = np.zeros((7, 7))
+    guesses[1, 0] = 1.0
     for i in range(2, 7):
-        apart = ABSCISSAE[:i] - ABSCISSAE[i]
-        slope = np.vander(apart, 2, True) @ [[0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]
-        parabola = np.vstack([np.vander(apart, 3, True), slope])
+        before = ABSCISSAE[:i] - ABSCISSAE[i]
+        slope = np.vander(before, 2, True) @ [[0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]
+        parabola = np.vstack([np.vander(before, 3, True), slope])
         of_u, of_v = np.split(np.linalg.pinv(parabola)[0], 2)
         inner = np.where(np.arange(7) < i, STAGES[i], 0.0)
         led = of_u @ STAGES[:i] @ STAGES + of_v @ STAGES[:i]
-        found[i] = (led - inner @ STAGES - GAMMA * inner) / GAMMA**2
-    return np.tril(found, -1)
+        guesses[i] = (led - inner @ STAGES - GAMMA * inner) / GAMMA**2
+    return np.tril(guesses, -1)
 
 
 STAGES = _stages()

@@ -1,7 +1,5 @@
 """The initial state of a run."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp

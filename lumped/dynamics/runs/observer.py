@@ -59,14 +59,9 @@ class LatticeObserver:
         self._observed: Observed | None = None
         if system.packed and system.coupling is None and not system.items:
             masses = system.assembly.pattern.size
-            observed = Observed(
-                system.forces,
-                system.mass_rows,
-                system.problem.loads.dead,
-                csr_arrays(self._probes.matrix(masses)),
-                system.problem.constraints.summed,
-            )
-            self._observed = typed(observed)
+            probes, summed = csr_arrays(self._probes.matrix(masses)), system.problem.constraints.summed
+            equations = system.forces, system.mass_rows, system.problem.loads.dead
+            self._observed = typed(Observed(*equations, probes, summed))
 
     def inspect(self, samples: LatticeSamples, count: int) -> tuple[np.ndarray, Fault | None]:
         """Return the largest strain of a link in each of the first `count` samples before an invalid one, and

@@ -1,7 +1,5 @@
 """Division of a run into samples and steps; periods and limits of a motion before it runs."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from functools import cache
 

@@ -6,8 +6,6 @@ rest; with a curved support or a tilted clamp it starts in the equilibrium under
 distance.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Any
@@ -149,14 +147,11 @@ def simulate(
         by_probe = (dict(zip(scene.probes, values, strict=True)) for values in at)
         history.extra["sensitivities"] = dict(zip(sensitivities, by_probe, strict=True))
     frames = history.extra["frames"]
+    along = {edge: (rest, frames[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()}
     history.extra.update(
-        {
-            "frames": frames[:, :masses],
-            "axes": {
-                edge: (rest, frames[:, np.searchsorted(drawn, rows)]) for edge, (rows, rest) in axes.items()
-            },
-            "sample": lambda u, plan: MidSurface(system.assembly.lattice, plan).of(u),
-            "mesh": field_mesh(system.problem.assembly, start.u, np.zeros_like(start.u)),
-        }
+        frames=frames[:, :masses],
+        axes=along,
+        sample=lambda u, plan: MidSurface(system.assembly.lattice, plan).of(u),
+        mesh=field_mesh(system.problem.assembly, start.u, np.zeros_like(start.u)),
     )
     return history

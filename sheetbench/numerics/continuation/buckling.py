@@ -7,8 +7,6 @@ before buckling are ignored, as in the closed forms: a tangent of the displaced 
 contain the spurious stretch of a rotation to first order (a strip on edge buckled at half its load).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

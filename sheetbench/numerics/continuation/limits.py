@@ -7,8 +7,6 @@ the reach's growth are smaller: with the elements' values a sheet softened 54-fo
 factorisations, and a sheet with a careful run after 16 factorisations takes 49 (`tests/test_catalogue.py`).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -5,8 +5,6 @@ old factors, as long as each leaves a tenth of the residual or less. The iterati
 at a number that is not finite, after a far too long step, and if corrections do not shrink.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import isfinite
 from typing import Generic

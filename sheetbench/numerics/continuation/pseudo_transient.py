@@ -16,8 +16,6 @@ Rods creep with the sheet. Sources: Kelley & Keyes (1998) on pseudo-transient co
 van den Doel (2007) on gradient flow with large steps.
 """
 
-from __future__ import annotations
-
 from typing import Generic, cast
 
 import numpy as np

@@ -3,8 +3,6 @@
 The tangent under follower loads is not symmetric (see `sheetbench.numerics.stability`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from sheetbench.answers.solution import Status

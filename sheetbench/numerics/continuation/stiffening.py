@@ -16,8 +16,6 @@ and at its points the full stiffness `full` (…) [Pa/m], `thickness` (…) [m] 
 `near` takes the result of `configuration`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress

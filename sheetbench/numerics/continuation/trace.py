@@ -19,8 +19,6 @@ The inertia of the true tangent decides at the end whether the equilibrium is st
 whose tangent is not symmetric, its real eigenvalues do (collapse; flutter belongs to dynamics).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from sheetbench.answers.solution import Status

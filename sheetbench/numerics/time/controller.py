@@ -9,8 +9,6 @@ with h max(r, 1/5) if ε > ε₀, and with h/4 if it finds no solution. A step o
 in spite of its error, and the run reports it. Source: Hairer and Wanner (1996), IV.8.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar

@@ -3,8 +3,6 @@
 A state is an immutable object with its `time` [s], whose other fields are arrays or None.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar

@@ -14,8 +14,6 @@ Backward Euler, u₁ = u₀ + h v₁ and v₁ = v₀ + h a₁, has this form; it
 either rule with u₁ as its unknown has v₁ = v̂ + c₁ (u₁ − û) and a₁ = c₂ (u₁ − û) (`AlphaStep`).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

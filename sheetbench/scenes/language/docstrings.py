@@ -1,7 +1,5 @@
 """Docstrings of scene objects: numpydoc's section of parameters, made of the sentence below each key."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from inspect import cleandoc, signature
 from textwrap import indent, wrap
@@ -29,9 +27,8 @@ def _parameters(table: type[BaseModel]) -> Iterator[str]:
     texts = sentences(table)
     for name in signature(table).parameters:
         field = table.model_fields[name]
-        annotated: Any = Annotated[
-            field.annotation, *field.metadata, None
-        ]  # an annotation has a mark at least
+        # an annotation has a mark at least
+        annotated: Any = Annotated[field.annotation, *field.metadata, None]
         unit = f" [{symbol}]" if (symbol := _unit(annotated)) else ""
         yield f"{name} : {_type(annotated)}{unit}{'' if field.is_required() else ', optional'}"
         yield indent("\n".join(wrap(texts[name], WIDTH)), "    ")

@@ -4,8 +4,6 @@ The refusal of a scene shows the sentence, which names the nearest feature, and 
 a guess at a slip of typing. A feature that is added takes its line away here.
 """
 
-from __future__ import annotations
-
 PAGE = "docs/limits.md"
 
 INSTEAD = {  # by the words that are often written: the feature of sheetbench

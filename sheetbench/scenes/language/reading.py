@@ -1,7 +1,5 @@
 """Reading of a user's text files, up to a largest size: a device has no end, and a film is no text."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from sheetbench.errors import BadInput

@@ -5,8 +5,6 @@
 Lists count from 1. The line names at most three faults, and the number of further ones.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from difflib import get_close_matches
 from reprlib import Repr

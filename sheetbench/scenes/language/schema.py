@@ -5,8 +5,6 @@ has two keywords more than the standard's: `unit`, its SI unit, and `hint`, a va
 beyond its bounds. Null does not occur: TOML has none.
 """
 
-from __future__ import annotations
-
 import ast
 import inspect
 from copy import deepcopy
@@ -38,7 +36,11 @@ def json_schema(model: type[BaseModel]) -> dict[str, Any]:
             if key.get("default", 0) is None:
                 del key["default"]
             for one in key.get("items", {}).get("discriminator", {}).get("mapping", {}).values():
-                _ask_for_kind(schema["$defs"][one.rpartition("/")[2]])
+                # a table of several kinds needs its kind: only an object in Python has it by its class
+                kinds = schema["$defs"][one.rpartition("/")[2]]
+                kinds["properties"]["kind"].pop("default", None)
+                needed = {"kind", *kinds.get("required", ())}
+                kinds["required"] = sorted(needed, key=list(kinds["properties"]).index)
     return schema
 
 
@@ -65,12 +67,6 @@ def _or_text(node: Any) -> None:
     elif isinstance(node, dict):
         for key in ("items", "prefixItems", "anyOf", "oneOf", "additionalProperties"):
             _or_text(node.get(key))
-
-
-def _ask_for_kind(table: dict[str, Any]) -> None:
-    """Require `kind` of a table that has several kinds: only an object in Python has it by its class."""
-    table["properties"]["kind"].pop("default", None)
-    table["required"] = sorted({"kind", *table.get("required", ())}, key=list(table["properties"]).index)
 
 
 @cache

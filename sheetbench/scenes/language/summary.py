@@ -1,7 +1,5 @@
 """Summaries of scenes and answers in a few lines, for a Python prompt."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Scenes as TOML text: a heading for each table, inline tables for the tables within."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any

@@ -4,8 +4,6 @@ A unit is a product of powers of the units in `UNITS`, some of which take an SI 
 multiply and `/` divides. A unit of another dimension than the requested one is refused by name.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from fractions import Fraction

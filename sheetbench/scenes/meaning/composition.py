@@ -5,8 +5,6 @@
 outside patches with a thickness of their own. A plain sheet is homogeneous.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import partial
 from typing import Any, NamedTuple

@@ -17,8 +17,6 @@ percent. A scene with a chain held at two places is refused. A chain is held alo
   across this one by a base elsewhere: `plane = "normal"`, and not free.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, pairwise, product
 
@@ -28,15 +26,7 @@ from sheetbench.scenes.meaning.kinematics import UP, Displaced, MovedEdge, Turne
 from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
 from sheetbench.scenes.objects.quantities import PlanPoint
 from sheetbench.scenes.objects.sheet import EDGES, Sheet
-from sheetbench.scenes.objects.supports import (
-    AnySupport,
-    Clamped,
-    Curved,
-    held_axes,
-    named,
-    place,
-    tilt_axes,
-)
+from sheetbench.scenes.objects.supports import AnySupport, Clamped, Curved, held_axes, named, place, tilt_axes
 
 EXACT = 1e-6  # m per metre of the longer side, and in a director: rounding of numbers written in decimals
 BETWEEN = (0.381966, 0.618034)

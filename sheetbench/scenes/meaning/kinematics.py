@@ -16,8 +16,6 @@ Solvers share the kinematics, a part of the question, but no mechanics: the mass
 edge, their constraints and reactions are each solver's own.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -5,32 +5,26 @@ shaped by bent and tilted supports. It starts with `shape = "static"` in the equ
 t = 0, and the loads with `hold = true` are let go at that time.
 """
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 from sheetbench.scenes.meaning.kinematics import bent_or_tilted
 from sheetbench.scenes.objects.actuators import Chain, EdgeMotion
 from sheetbench.scenes.objects.fields import AScene, SceneFields
-from sheetbench.scenes.objects.obstacles import AnyObstacle
-from sheetbench.scenes.objects.supports import AnySupport
+from sheetbench.scenes.objects.quantities import Frozen
 from sheetbench.scenes.objects.tables import Loading, OverTime
 
-Loaded = TypeVar("Loaded", bound=Loading)
-Held = TypeVar("Held", bound=AnySupport | AnyObstacle)
+Part = TypeVar("Part", bound=Frozen)
+State = TypeVar("State", bound=Loading)
 NO_START = "the motion would start from no stable equilibrium"
 
 
 def kinks(scene: SceneFields) -> list[float]:
     """Return the times [s], rising, of the samples of histories, commands and motions. All prescribed values
     are smooth between the times."""
-    tables: list[OverTime | None] = [
-        one.history for one in (scene.gravity, *scene.loads, *scene.natural_states.values()) if one
-    ]
-    tables += [*(one.motion for one in (*scene.supports, *scene.obstacles)), *scene.motions().values()]
-    commands = (getattr(actuator, "curvature", None) for actuator in scene.actuators)
-    tables += [command for command in commands if isinstance(command, OverTime)]
-    return sorted({time for table in tables if table is not None for time in table.time})
+    parts = [scene.gravity, *scene.loads, *scene.natural_states.values(), *scene.supports, *scene.obstacles]
+    values = (value for part in (*parts, *scene.actuators) if part for _, value in part)
+    tables = [*scene.motions().values(), *(value for value in values if isinstance(value, OverTime))]
+    return sorted({time for table in tables for time in table.time})
 
 
 def let_go(scene: AScene) -> AScene:
@@ -49,31 +43,27 @@ def at_start(scene: AScene) -> AScene:
     static = scene.initial is not None
     return scene.replace(
         initial=None,
-        gravity=scene.gravity and _load_at_start(scene.gravity) if static else None,
+        gravity=scene.gravity and _at_start(scene.gravity) if static else None,
         natural=_state_at_start(scene.natural, static),
         temperature=_state_at_start(scene.temperature, static),
         patches=tuple(one.replace(natural=_state_at_start(one.natural, static)) for one in scene.patches),
-        loads=tuple(_load_at_start(load).replace(hold=False) for load in scene.loads) if static else (),
-        supports=tuple(_support_at_start(support) for support in scene.supports),
-        obstacles=tuple(_support_at_start(one).replace(friction=0.0) for one in scene.obstacles),
+        loads=tuple(_at_start(load).replace(hold=False) for load in scene.loads) if static else (),
+        supports=tuple(_at_start(support) for support in scene.supports),
+        obstacles=tuple(_at_start(one).replace(friction=0.0) for one in scene.obstacles),
         actuators=tuple(_actuator_at_start(one, static) for one in scene.actuators),
     )
 
 
-def _load_at_start(load: Loaded) -> Loaded:
-    return load.replace(history=load.history.still()) if load.history else load
+def _at_start(part: Part) -> Part:
+    """Return an object of a scene with the constant values of t = 0 in place of its tables over time."""
+    return part.replace(**{key: table.still() for key, table in part if isinstance(table, OverTime)})
 
 
-def _state_at_start(state: Loaded | None, static: bool) -> Loaded | None:
-    return state and (_load_at_start(state) if static else type(state)())
-
-
-def _support_at_start(held: Held) -> Held:
-    return held.replace(motion=held.motion.still()) if held.motion else held  # type: ignore[return-value]
+def _state_at_start(state: State | None, static: bool) -> State | None:
+    return state and (_at_start(state) if static else type(state)())
 
 
 def _actuator_at_start(actuator: Chain | EdgeMotion, static: bool) -> Chain | EdgeMotion:
     if isinstance(actuator, EdgeMotion):
         return actuator.still()
-    bent = actuator.curvature if static else 0.0
-    return actuator.replace(curvature=bent.still() if isinstance(bent, OverTime) else bent)
+    return _at_start(actuator) if static else actuator.replace(curvature=0.0)

@@ -117,10 +117,8 @@ def sources_of(scene: SceneFields) -> Iterator[Source]:
             area = patch.shape.area if taken is None else patch.shape.area.difference(taken)
             yield Source(f"patch {n}", patch.natural, *_strain_and_curvature(scene, patch.natural), area)
             taken = area if taken is None else taken.union(area)
-    if scene.natural is not None:
-        yield Source(
-            "natural", scene.natural, *_strain_and_curvature(scene, scene.natural), taken, within=False
-        )
+    if (natural := scene.natural) is not None:
+        yield Source("natural", natural, *_strain_and_curvature(scene, natural), taken, within=False)
     if scene.temperature is not None:
         yield Source("temperature", scene.temperature, *thermal(scene, scene.temperature))
 

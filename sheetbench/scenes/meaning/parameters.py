@@ -19,8 +19,6 @@ supportN.x, y, z                                      of the last place of the s
 actuatorN.x, y, z, curvatureJ, bending_stiffness      of the scene's Nth [[actuator]]; J: of its joints
 """
 
-from __future__ import annotations
-
 import re
 from contextlib import suppress
 from functools import cache

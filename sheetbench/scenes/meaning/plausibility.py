@@ -6,8 +6,6 @@ quarter of the shorter side, a gravity other than the Earth's, and a distance of
 the thickness; then a weight or loads that would tear the sheet, and a sheet that nothing moves.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from math import hypot
 from warnings import warn
@@ -41,10 +39,8 @@ def slips(scene: SceneFields) -> tuple[str, ...]:
         warnings += layer_slips(sheet, springs.layer_distance, "springs.layer_distance")
     if not warnings:  # else they may be the reason
         warnings = [*_strain_slips(scene)]
-    if _nothing_moves(scene):
-        warnings.append(
-            "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
-        )
+    still = "no gravity, load, actuator or bent support: nothing moves the sheet, all stays at zero"
+    warnings += [still] * _nothing_moves(scene)
     return tuple(warnings)
 
 

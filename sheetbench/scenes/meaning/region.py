@@ -1,7 +1,5 @@
 """Parts of a scene's plan: their lengths, areas and resultants, and faults of parts outside the sheet."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

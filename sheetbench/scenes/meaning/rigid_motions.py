@@ -1,7 +1,5 @@
 """The rigid motions that a scene's supports and actuators leave free; a static answer requires none."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

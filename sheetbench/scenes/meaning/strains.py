@@ -7,8 +7,6 @@ stretch  the largest elongation in a model's answer, at the places that the mode
 The rule holds for every model.
 """
 
-from __future__ import annotations
-
 import math
 
 from sheetbench.scenes.meaning.composition import mass_over_stiffness

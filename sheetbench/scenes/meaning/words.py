@@ -1,7 +1,5 @@
 """A scene in words, for its author to check: the place, size and direction of every part."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from math import degrees, hypot
 from typing import Any
@@ -32,13 +30,13 @@ from sheetbench.scenes.objects.tables import FactorTable
 def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     """Yield the name of each part of a scene and a sentence on it."""
     sheet, material, mass = scene.sheet, scene.material, mass_of(scene)
+    sides = f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}"
+    thick = (
+        f"{_mm(sheet.thickness)} mm thick (1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side)"
+    )
     tapered = sheet.given(("taper_x", "taper_y")).items()
     tapers = "".join(f", from {_mm(low)} to {_mm(high)} mm along {key[-1]}" for key, (low, high) in tapered)
-    yield (
-        "sheet",
-        f"{_mm(sheet.length_x)} × {_mm(sheet.length_y)} mm{_outline(scene)}, {_mm(sheet.thickness)} mm thick "
-        f"(1/{min(sheet.lengths) / sheet.thickness:.3g} of the shorter side){tapers}, {1e3 * mass:.3g} g",
-    )
+    yield "sheet", f"{sides}, {thick}{tapers}, {1e3 * mass:.3g} g"
     rubber = f" at small strains, rubber by the law {material.law}" if material.law else ""
     rubber += f" ({constants})" if (constants := _constants(material.given(CONSTANTS))) else ""
     dampers = f", dampers of {1e3 * time:.4g} ms · k" if (time := material.dashpot_time) else ""
@@ -58,11 +56,9 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     yield "weight", _weight(scene, mass + carried(scene))
     if scene.air is not None:
         share = 100.0 * scene.air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
-        yield (
-            "air",
-            f"drag of {scene.air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest. The "
-            f"mass of air that moves along, up to {share:.2g} % of the sheet's, is left out",
-        )
+        drag = f"drag of {scene.air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest"
+        carried_along = f"mass of air that moves along, up to {share:.2g} % of the sheet's, is left out"
+        yield "air", f"{drag}. The {carried_along}"
     for name, support in named(scene.supports).items():
         yield f"edge {name}" if place(support) is None else name, _support(support, sheet)
     for n, load in enumerate(scene.loads, start=1):
@@ -166,10 +162,8 @@ def sheet_in_words(sheet: Sheet, material: Material) -> str:
 def natural_in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
     """Yield the name of each natural state or temperature and a sentence on it."""
     for source in sources_of(scene):
-        strain, curvature = (
-            np.where(np.abs(part) > ROUNDING * np.abs(part).max(), part, 0.0)
-            for part in (source.strain, source.curvature)
-        )
+        both = source.strain, source.curvature
+        strain, curvature = (np.where(np.abs(p) > ROUNDING * np.abs(p).max(), p, 0.0) for p in both)
         parts, pretension = list[str](), getattr(source.of, "pretension", None)
         if pretension:  # its strain depends on the model
             x, y = (source.of.last_factor * pull for pull in pretension)
@@ -213,9 +207,8 @@ def _weight(scene: SceneFields, mass: float) -> str:
     whole = f", of {1e3 * mass:.3g} g in all" if scene.masses else ""
     if (gravity := scene.gravity) is None:
         return f"none: weightless{whole}"
-    return (
-        f"{_vector([mass * part for part in gravity.acceleration], 'N')}{whole}{_over_time(gravity.history)}"
-    )
+    force = _vector([mass * part for part in gravity.acceleration], "N")
+    return f"{force}{whole}{_over_time(gravity.history)}"
 
 
 def _support(support: AnySupport, sheet: Sheet) -> str:
@@ -234,10 +227,8 @@ def _support(support: AnySupport, sheet: Sheet) -> str:
         case Clamped(tilt=0.0):
             held = "clamped: the mid-surface and its normal held"
         case Clamped(tilt=tilt):
-            held = (
-                f"clamped, turned by {abs(tilt):g} rad ({degrees(abs(tilt)):.3g}°): the sheet starts off "
-                f"{'downwards' if tilt > 0.0 else 'upwards'}"
-            )
+            turned, way = f"{abs(tilt):g} rad ({degrees(abs(tilt)):.3g}°)", "down" if tilt > 0.0 else "up"
+            held = f"clamped, turned by {turned}: the sheet starts off {way}wards"
         case Hinged(twist="held"):
             held = "hinged: the mid-surface held, free to turn about the edge alone (hard simple support)"
         case Hinged():

@@ -78,14 +78,9 @@ class Chain(Frozen):
     """Place where the chain is held: nowhere ("free"), its middle, or its end at the edge's start or end."""
 
     def _faults(self) -> Iterator[object]:
-        yield (
-            isinstance(self.curvature, tuple)
-            and len(self.curvature) != self.joints
-            and (
-                f"curvature has {len(self.curvature)} values, but {self.segments} segments with base = "
-                f'"{self.base}" have {self.joints} joints'
-            )
-        )
+        count = len(self.curvature) if isinstance(self.curvature, tuple) else self.joints
+        joints = f'{self.segments} segments with base = "{self.base}" have {self.joints} joints'
+        yield count != self.joints and f"curvature has {count} values, but {joints}"
 
     @property
     def held_as(self) -> str:

@@ -49,9 +49,8 @@ def from_file(data: Mapping[str, Any]) -> dict[str, Any]:
         path = Path(data[key])
         points, parts = read_file(path, FORMATS if key == "mesh" else DRAWINGS)
         unit = float(parts.pop("unit", np.ones(1))[0]) if scale is None else float(str(scale))
-        plan, turned = _project_to_plane(
-            points, np.concatenate([np.ravel(part) for part in parts.values()]), key
-        )
+        used = np.concatenate([np.ravel(part) for part in parts.values()])
+        plan, turned = _project_to_plane(points, used, key)
         shift = ("corner" if key == "outline" else (0.0, 0.0)) if shift is None else shift
         places, moved = _shift(unit * plan, shift, np.array([*sides.values()]))
         changes = [turned, f"1 unit of it is {1e3 * unit:.5g} mm" * (unit != 1.0), moved]

@@ -65,7 +65,7 @@ class EdgeLoad(_Load):
 
     @property
     def follows(self) -> bool:  # type: ignore[override]
-        """Whether there is a moment, which turns with the edge."""
+        """Return whether there is a moment, which turns with the edge."""
         return self.moment_per_length != 0.0
 
 

@@ -117,9 +117,8 @@ def _constants_in_schema(schema: dict[str, Any]) -> None:
     schema.pop("required", None)
     needed = {"if": fibres, "then": {"required": ["density", *NEEDED]}, "else": needed}
     cloth = {"properties": {"kind": {"const": "stiffness"}}, "required": ["kind"]}
-    schema["allOf"] = [
-        {"if": cloth, "then": {"required": ["membrane", "bending", "area_density"]}, "else": needed}
-    ]
+    stiffnesses = {"required": ["membrane", "bending", "area_density"]}
+    schema["allOf"] = [{"if": cloth, "then": stiffnesses, "else": needed}]
 
 
 class Material(Fibres):
@@ -312,10 +311,8 @@ class Material(Fibres):
         if self.loss_factor is not None and self.band is not None:
             return constant_loss(self.loss_factor, *self.band)
         rest = 1.0 - sum(branch.share for branch in self.relaxation)
-        return Branches(
-            tuple(branch.share / rest for branch in self.relaxation),
-            tuple(branch.time for branch in self.relaxation),
-        )
+        stiffness = tuple(branch.share / rest for branch in self.relaxation)
+        return Branches(stiffness, tuple(branch.time for branch in self.relaxation))
 
     @property
     def energy(self) -> Energy:

@@ -190,11 +190,8 @@ def _rings(lines: list[np.ndarray], unit: float) -> dict[str, np.ndarray]:
     if any(not filled.covers(face) for face in faces):
         raise ValueError("it encloses several parts; a sheet is one piece with holes")
     rings = [np.array(ring.coords)[:-1] for ring in (sheet.exterior, *sheet.interiors)]
-    return {
-        "points": np.concatenate(rings),
-        "rings": np.array([len(ring) for ring in rings]),
-        "unit": np.array([unit]),
-    }
+    lengths = np.array([len(ring) for ring in rings])
+    return {"points": np.concatenate(rings), "rings": lengths, "unit": np.array([unit])}
 
 
 DRAWINGS = {"dxf": ("ezdxf", _dxf), "svg": ("svgelements", _svg)}

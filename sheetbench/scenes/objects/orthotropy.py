@@ -113,13 +113,8 @@ def impossible(given: Mapping[str, Any]) -> str:
 def impossible_in_space(ply: Ply) -> str:
     """Return the reason why a ply's constants of all three axes are impossible, "" if they are possible."""
     e1, e2, e3, n12, n13, n23 = ply[2:8]
-    compliance = np.array(
-        [
-            [1.0 / e1, -n12 / e1, -n13 / e1],
-            [-n12 / e1, 1.0 / e2, -n23 / e2],
-            [-n13 / e1, -n23 / e2, 1.0 / e3],
-        ]
-    )
+    mixed = np.array([[0.0, n12 / e1, n13 / e1], [0.0, 0.0, n23 / e2], [0.0, 0.0, 0.0]])
+    compliance = np.diag([1.0 / e1, 1.0 / e2, 1.0 / e3]) - mixed - mixed.T
     scale = np.sqrt(np.diag(compliance))
     if np.linalg.eigvalsh(compliance / np.outer(scale, scale))[0] > 0.0:
         return ""

@@ -55,9 +55,8 @@ class PlanMesh(Frozen):
         import shapely
 
         points, quads = self.arrays
-        yield quads.max() >= len(points) and (
-            f"quads: corner {quads.max()} is beyond the last of {len(points)} points"
-        )
+        beyond = f"quads: corner {quads.max()} is beyond the last of {len(points)} points"
+        yield quads.max() >= len(points) and beyond
         corners = points[quads]
         onwards, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
         turn = onwards[..., 0] * back[..., 1] - onwards[..., 1] * back[..., 0]
@@ -148,9 +147,8 @@ def mesh_of(points: np.ndarray, cells: dict[str, np.ndarray]) -> PlanMesh:
 def divided(points: np.ndarray, polygons: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Cut polygons (k, c) about their middles into quadrilaterals (m, 4) of points (n, 2) [m]."""
     sides = [np.stack([one, np.roll(one, -1, axis=1)], axis=-1) for one in polygons]
-    ends, which = np.unique(
-        np.sort(np.concatenate([side.reshape(-1, 2) for side in sides]), axis=1), axis=0, return_inverse=True
-    )
+    pairs = np.sort(np.concatenate([side.reshape(-1, 2) for side in sides]), axis=1)
+    ends, which = np.unique(pairs, axis=0, return_inverse=True)
     centres = [points[one].mean(axis=1) for one in polygons]
     every = np.concatenate([points, points[ends].mean(axis=1), *centres])
     quads, first, centre = [], 0, len(points) + len(ends)

@@ -105,9 +105,8 @@ class Branches(NamedTuple):
         """Return the step from a memory to `ahead` [s] later."""
         x = ahead / np.array(self.times)
         weight = -np.expm1(-x) / x if ahead > 0.0 else np.ones_like(x)
-        return self.stepped(
-            weight, np.exp(-x)[:, None, None] * memory[1:] - weight[:, None, None] * memory[0]
-        )
+        constant = np.exp(-x)[:, None, None] * memory[1:] - weight[:, None, None] * memory[0]
+        return self.stepped(weight, constant)
 
     def at_rest(self, x: np.ndarray) -> np.ndarray:
         """Return the memory at X (2, m) after full relaxation."""

@@ -112,10 +112,8 @@ class Shape(Frozen):
         if self.circle is not None:
             x, y = (f"{1e3 * value:.4g}" for value in self.circle.centre)
             return f"circle of radius {1e3 * self.circle.radius:.4g} mm about ({x}, {y}) mm"
-        what = (
-            "rectangle" if self.rectangle is not None else f"polygon of {len(self.polygon or ())} corners in"
-        )
-        return f"{what} {left} ≤ x ≤ {right}, {low} ≤ y ≤ {high} mm"
+        kind = f"polygon of {len(self.polygon)} corners in" if self.polygon else "rectangle"
+        return f"{kind} {left} ≤ x ≤ {right}, {low} ≤ y ≤ {high} mm"
 
 
 def crossing(key: str, corners: tuple[PlanPoint, ...]) -> str:

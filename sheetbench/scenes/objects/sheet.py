@@ -43,12 +43,8 @@ class Edge(NamedTuple):
         return (sign, 0.0, 0.0) if self.normal_axis == 0 else (0.0, sign, 0.0)
 
 
-EDGES: dict[str, Edge] = {
-    "x0": Edge(0, 1, False),
-    "x1": Edge(0, 1, True),
-    "y0": Edge(1, 0, False),
-    "y1": Edge(1, 0, True),
-}
+EDGES: dict[str, Edge] = {"x0": Edge(0, 1, False), "x1": Edge(0, 1, True)}
+EDGES |= {"y0": Edge(1, 0, False), "y1": Edge(1, 0, True)}
 
 
 class Sheet(Frozen):
@@ -112,12 +108,13 @@ class Sheet(Frozen):
         for key, corners in drawn.items():
             every = zip(*corners or (), strict=True)
             for name, length, places in zip("xy", self.lengths, every, strict=False):
-                yield max(abs(min(places)), abs(max(places) - length)) > COINCIDENT * length and (
-                    f"{key}: its corners are at {min(places):g} ≤ {name} ≤ {max(places):g} m; they "
-                    f"have to reach from 0 to length_{name} = {length:g} m"
-                    + self._remedy(min(places), max(places) - min(places), length)
-                    * bool(self.drawn_from)
+                low, high = min(places), max(places)
+                remedy = self._remedy(low, high - low, length) if self.drawn_from else ""
+                there = (
+                    f"{key}: its corners are at {low:g} ≤ {name} ≤ {high:g} m; they have to reach from 0 to"
                 )
+                off = max(abs(low), abs(high - length)) > COINCIDENT * length
+                yield off and f"{there} length_{name} = {length:g} m{remedy}"
         yield self.outline and crossing("outline", self.outline)
 
     @staticmethod

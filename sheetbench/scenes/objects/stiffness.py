@@ -51,9 +51,8 @@ class Stiffnesses(Frozen):
 def as_laminate(data: Mapping[str, Any], material: Any) -> dict[str, Any]:
     """Return a scene's keys with thickness, orthotropic material and layers in place of the stiffnesses.
     Raises ValueError for stiffnesses that no laminate has."""
-    rest = {
-        key: value for key, value in dict(data["material"]).items() if key not in (*KEYS, "poisson", "kind")
-    }
+    replaced = (*KEYS, "poisson", "kind")
+    rest = {key: value for key, value in dict(data["material"]).items() if key not in replaced}
     sheet = dict(data["sheet"]) if isinstance(data.get("sheet"), Mapping) else data["sheet"].model_dump()
     membrane, bending = material.stiffness("membrane"), material.stiffness("bending")
     for key, form in (("membrane", membrane), ("bending", bending)):
@@ -99,11 +98,6 @@ def _thickness(sheet: Mapping[str, Any], ratio: float) -> float:
 
 def _constants(form: np.ndarray) -> dict[str, float]:
     """Return the constants of a ply with a plane-stress stiffness (3, 3) [Pa]."""
-    compliance = np.linalg.inv(form[:2, :2])
-    values = (
-        1.0 / compliance[0, 0],
-        1.0 / compliance[1, 1],
-        0.0 - compliance[0, 1] / compliance[0, 0],
-        form[2, 2],
-    )
+    (along, mixed), (_, across) = np.linalg.inv(form[:2, :2])  # 1/E₁, −ν₁₂/E₁ and 1/E₂
+    values = 1.0 / along, 1.0 / across, 0.0 - mixed / along, form[2, 2]
     return dict(zip(NEEDED, map(float, values), strict=True))

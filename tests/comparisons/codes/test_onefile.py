@@ -40,6 +40,7 @@ BAR = scenes.Cylinder(position=(0.15, 0.05, -0.0225), axis=(0.1, 1.0, 0.0), radi
 OWN = {
     "settling": (SETTLING, {}),
     "rate": (STRIP, {}),
+    "falling": (STRIP.replace(supports=()), {}),
     "moved": (STRIP.replace(supports=(Clamped(edge="x0", motion=RISE),)), {}),
     "linear": (STRIP.replace(supports=(Clamped(edge="x0", motion=RISE | {"interpolation": "linear"}),)), {}),
     "hinges": (STRIP.replace(supports=HINGES), {}),
@@ -110,9 +111,9 @@ def off(sheet, steps=2000):
         sheet.call("step", steps // (len(known) - 1))
         found.append(sheet.row())
     units = list(sheet.found.outputs.values())
-    ends = units.index("N"), units.index("J")
+    ends = np.cumsum([units.count("m"), units.count("N")])
     gap, own = (np.split(np.abs(one), ends, axis=1) for one in (found - known[:, 1:], known[:, 1:]))
-    return [one.max() for one in gap], [one.max() for one in own]
+    return [one.max(initial=0.0) for one in gap], [one.max(initial=0.0) for one in own]
 
 
 def made(name, folder, precision="double", *flags):

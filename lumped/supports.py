@@ -137,8 +137,8 @@ class Constraints:
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:
     """Return the constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a
     linear map of the actuator's rows. An edge moved rigidly is held by the motion, not by supports.
-    Constraints without actuators on a small lattice are cached, and their transform apart from where supports
-    move, tilt and bend."""
+    Constraints without actuators on a small lattice are cached; supports that only move, tilt or bend
+    otherwise share a transform."""
     return _constrain(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
 
 

@@ -21,7 +21,6 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from types import MappingProxyType
 
 import numpy as np
 
@@ -32,7 +31,7 @@ from lumped.calibration.closed_form import springs_of_cells
 from lumped.calibration.consistent import special
 from lumped.masses import shares_of_layers
 from lumped.natural import grown
-from lumped.natural import rates as natural_rates
+from lumped.natural import powers as natural_powers
 from lumped.sections import CellSection, of_cells, ratio, twisting
 from lumped.spring_constants import EDGES_OWN, NEAR_EDGES, NONE, RIMS_OWN, Springs
 from lumped.springs.all_families import (
@@ -43,7 +42,7 @@ from lumped.springs.all_families import (
     stiffness_by_cells,
 )
 from lumped.springs.families import Family
-from lumped.springs.law_table import FACE, RUBBER
+from lumped.springs.law_table import FACE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cells, Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, sheet_at_rest
@@ -53,13 +52,10 @@ NUMBERS = (*OF_SECTION, "density")
 STATE = ("strain", "curvature")
 ROUNDING = 1e-9  # of the largest constant
 NOTHING = 1e-300  # N/m, a stiffness of springs that are there
-LIMIT = 9  # among the constants of rubber
 STEP = 1e-5  # of a field, for differences of springs, whose error is of its square
 Fields = Mapping[str, np.ndarray]
-# cells beside each spring (q, m), and rates of its constants by theirs (q, m, n, c)
-Rate = tuple[np.ndarray, np.ndarray]
-# rates that are not 0, (k,): places in the field, numbers among the constants of all springs, and values
-Entries = tuple[np.ndarray, np.ndarray, np.ndarray]
+# of each kind of springs: the cells beside each, (q, m), and their shares (q, m, n) of its constants
+Shares = list[tuple[np.ndarray, np.ndarray]]
 
 
 class CellFields:
@@ -67,7 +63,8 @@ class CellFields:
 
     def __init__(self, scene: Scene, calibration: Calibration, assembly: Assembly):
         self.scene, self.calibration, self.assembly = scene, calibration, assembly
-        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, Entries]()
+        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, tuple[Shares, np.ndarray]]()
+        self.isotropic = scene.material.kind != "orthotropic" and not scene.layers
 
     @cached_property
     def section(self) -> CellSection:
@@ -106,7 +103,7 @@ class CellFields:
         e, t, rho = (change[..., None, None] for change in changes)
         membrane, bending, shear = section.membrane * e * t, section.bending * e * t**3, section.shear * e * t
         if "poisson" in fields:
-            if self.scene.material.kind == "orthotropic" or self.scene.layers:
+            if not self.isotropic:
                 raise BadInput("cells.poisson: of isotropic sheets only")
             was, now = (nu[..., None, None] for nu in (base["poisson"], fields["poisson"]))
             by = (1.0 - was**2) / (1.0 - now**2) * np.ones_like(membrane)
@@ -194,83 +191,66 @@ class CellFields:
         own = replace(own, of={**own.of, "mid_area": (np.full(self.shape, NOTHING),)})
         return self._grown(self.families_of(own), fields)
 
-    def powers(
+    def by_number(
         self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray], v: np.ndarray
     ) -> np.ndarray:
-        """Return the derivatives of v·(f − f_int) by a field, of the complete lattice `assembly`; by: the
-        derivatives of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
+        """Return the derivatives of v·(f − f_int) by a field of numbers, of the complete lattice `assembly`;
+        by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
         base = fields.get(name, self.base[name])
         found = np.zeros_like(base)
-        if name != "density":
-            own = (fields.keys() - {name} if name == "young" else fields.keys()) & {*OF_SECTION, *STATE}
-            known = {} if own else self._kept
-            if name not in known:
-                known |= self._entries(name, fields if own else {}, assembly, by)
-            cells, constants, rates = known[name]
-            powers = np.concatenate([power.ravel() for power in by])
-            found -= np.bincount(cells, rates * powers[constants], base.size).reshape(base.shape)
+        of_springs, over = self._rates(name, fields, assembly) if name in OF_SECTION else ([], found)
+        for (cells, change), power in zip(of_springs, by, strict=False):
+            each = np.einsum("qmn,mn->qm", change, power[:, : change.shape[2]])
+            found -= np.bincount(cells.ravel(), each.ravel(), base.size).reshape(base.shape) / over
         if name in ("density", "thickness") and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
             per_area = ratio(self.changed_section(fields).per_area, base)
-            found = found + per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
+            found += per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
         return found
 
-    def _entries(
-        self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray]
-    ) -> dict[str, Entries]:
-        """Return the entries of a field's rates by its name; strain and curvature have theirs at once."""
-        start, found = 0, list[tuple[np.ndarray, ...]]()
-        for (cells, rate), power in zip(self._rates(name, fields, assembly), by, strict=False):
-            q, m, n, c = np.nonzero(rate)
-            found.append((cells[q, m], c, start + m * power.shape[1] + n, rate[q, m, n, c]))
-            start += power.size
-        cells, component, constants, rates = map(np.concatenate, zip(*found, strict=True))
-        if name not in STATE:
-            return {name: (cells, constants, rates)}
-        each = ((one, component // 3 == number) for number, one in enumerate(STATE))
-        return {one: (3 * cells[of] + component[of] % 3, constants[of], rates[of]) for one, of in each}
+    def by_state(self, fields: Fields, assembly: Assembly, by: list[np.ndarray]) -> dict[str, np.ndarray]:
+        """Return the derivatives of v·(f − f_int) by the fields of STATE, as `by_number` does."""
+        strain, curvature = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
+        flat = assembly.springs
+        if assembly.natural is not None:
+            flat = self.families_of(self.springs(fields)[0]).families
+        found = natural_powers(assembly.lattice, flat[:3], (strain, curvature), by[:3])
+        return dict(zip(STATE, np.split(-found, 2, axis=-1), strict=True))
 
-    def _rates(self, name: str, fields: Fields, assembly: Assembly) -> list[Rate]:
-        """Return the rates by cells and kinds of springs: linear in E, else by a central difference; by
-        strain and curvature together."""
-        if name in STATE:
-            strain, bent = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
-            flat = assembly.springs
-            if assembly.natural is not None:
-                flat = self.families_of(self.springs(fields)[0]).families
-            return natural_rates(assembly.lattice, flat[:3], (strain, bent))
-        base = fields.get(name, self.base[name])
-        step = STEP * np.maximum(np.abs(base), 0.1 if name == "poisson" else 0.0)
-        ends, over = ((base,), base) if name == "young" else ((base + step, base - step), 2.0 * step)
-        springs = self.springs(*({**fields, name: end} for end in ends))
-        sides = [self.by_cells(one, assembly, fields) for one in springs]
-        over, found = np.where(over > 0.0, over, 1.0).ravel(), []
-        for (cells, rate), *below in zip(*sides, strict=True):
-            change = rate - below[0][1] if below else rate
-            if change.shape[2] == RUBBER.count:
-                change[..., LIMIT] = 0.0  # a strain
-            found.append((cells, (change / over[cells][:, :, None])[..., None]))
-        return found
+    def _rates(self, name: str, fields: Fields, assembly: Assembly) -> tuple[Shares, np.ndarray]:
+        """Return the changes of springs `by_cells` with a field, and of the field; of ν and h together."""
+        fields = {one: fields[one] for one in fields.keys() & {*OF_SECTION, "strain"}}
+        kept = {} if fields else self._kept
+        if name not in kept:
+            names = ("poisson", "thickness") if self.isotropic and name != "young" else (name,)
+            base = {one: fields.get(one, self.base[one]) for one in names}
+            steps = {one: STEP * np.maximum(np.abs(of), 0.1 * (one == "poisson")) for one, of in base.items()}
+            ends = ({**fields, one: base[one] + by * steps[one]} for one in names for by in (1.0, -1.0))
+            springs = iter(self.springs(*ends))
+            for one, step in steps.items():
+                over = np.where(step > 0.0, 2.0 * step, 1.0)
+                kept[one] = self.by_cells(next(springs), assembly, fields, next(springs)), over
+        return kept[name]
 
-    def by_cells(
-        self, springs: Springs, assembly: Assembly, fields: Fields = MappingProxyType({})
-    ) -> list[tuple[np.ndarray, np.ndarray]]:
+    def by_cells(self, springs: Springs, assembly: Assembly, fields: Fields, below: Springs | None) -> Shares:
         """Return, for each kind of springs, the cells beside each, (q, m), and their shares (q, m, n) of its
-        constants."""
+        constants, or of their differences from springs `below`."""
         lattice, none = assembly.lattice, (np.empty((1, 0), int), np.empty((1, 0, 1)))
-        these = lattice.links_of(assembly.links.nodes)
-        found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these])]
+        these, change = lattice.links_of(assembly.links.nodes), springs.less(below) if below else springs
+        found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, change)[:, these])]
         kept = np.arange(lattice.cell_areas.size)[lattice.present_cells]
-        plain: list[Family] = [*cell_springs(lattice, assembly.pattern, springs)]
+        plain: list[Family] = [*cell_springs(lattice, assembly.pattern, change)]
         strain = fields.get("strain", self.base["strain"])
         if strain.any():
             plain = grown(lattice, plain, strain[..., [[0, 2], [2, 1]]])
         for family, now in zip(assembly.springs[1:3], plain, strict=True):
             cells = np.tile(kept, len(family) // len(kept))[None]
-            found.append((cells, now.constants[None]) if len(family) else none)  # type: ignore[attr-defined]
+            found.append((cells, now.constants[None]) if len(family) and len(now) else none)  # type: ignore[attr-defined]
         if not len(assembly.springs[3]):
             return [*found, none]
         stored = faces_by_cells(lattice, springs)
+        if below is not None:
+            stored = stored - faces_by_cells(lattice, below)
         constants = np.zeros((*stored.shape, FACE.count))
         constants[..., -1] = stored / lattice.faces.at_rest.area**2
         return [*found, (lattice.faces.cells, constants)]

@@ -20,10 +20,10 @@ import scipy.sparse as sp
 
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
+from sheetbench.numerics import across
 from sheetbench.scenes.objects.grid import Grid
 
 SIDES = np.array([[0, 1], [1, 2], [3, 2], [0, 3]])
-LINEAR = 20  # vectors that are linear in places: 4 corners, Δx and d at both ends of 4 sides
 
 
 def shapes(r: np.ndarray, s: np.ndarray) -> np.ndarray:
@@ -37,60 +37,35 @@ def shapes(r: np.ndarray, s: np.ndarray) -> np.ndarray:
     return np.stack(found, axis=1)
 
 
-def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return a bᵀ (…, 3, 3) of vectors (…, 3)."""
-    return np.asarray(a[..., :, None] * b[..., None, :])
-
-
-def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return a·b (…, 1, 1) of vectors (…, 3)."""
-    return np.asarray((a * b).sum(-1)[..., None, None])
-
-
 class CellSurface:
-    """Corners and curves of cells, of the places (m, q, 3) of their masses. linear: (20, q), the map to x of
-    corners and to Δx and d at the ends of sides."""
+    """Corners and curves of cells, of the places (m, q, 3) of their masses. corners: (4, q), the map to x of
+    corners; ends: (2, 8, q), the maps to Δx and d at both ends of four sides."""
 
     def __init__(self, grid: Grid, layer_distance: float):
         layers = grid[2]
         director = np.zeros(layers)
         director[[0, -1]] = np.array([-1.0, 1.0]) / ((layers - 1) * layer_distance)
-        x, d = np.kron(np.eye(4), np.full(layers, 1.0 / layers)), np.kron(np.eye(4), director)
-        chords = np.repeat(x[SIDES[:, 1]] - x[SIDES[:, 0]], 2, axis=0)
-        self.linear = np.concatenate([x, chords, d[SIDES.ravel()]])
+        self.corners, d = np.kron(np.eye(4), np.full(layers, 1.0 / layers)), np.kron(np.eye(4), director)
+        chords = np.repeat(self.corners[SIDES[:, 1]] - self.corners[SIDES[:, 0]], 2, axis=0)
+        self.ends = np.stack([chords, d[SIDES.ravel()]])
 
     def vectors(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return corners and a (m, 12, 3) [m], and Δx and d at the ends of sides (2, m, 8, 3)."""
-        linear = self.linear @ places
-        step, d = ends = np.stack([linear[:, 4:12], linear[:, 12:]])
-        return np.concatenate([linear[:, :4], -(dot(step, d) / dot(d, d))[..., 0] * d], axis=1), ends
+        ends = self.ends[:, None] @ places
+        return np.concatenate([self.corners @ places, across.correction(*ends)], axis=1), ends
 
-    def slopes(self, ends: np.ndarray) -> np.ndarray:
-        """Return derivatives (m, 12, 3, 20, 3) of corners and a by the vectors of the linear map."""
-        step, d = ends
-        out, corner, curve = np.zeros((len(d), 12, 3, LINEAR, 3)), np.arange(4), np.arange(4, 12)
-        square, dyad = dot(d, d), outer(d, d)
-        by_d = 2.0 * dot(step, d) * dyad / square**2 - (outer(d, step) + dot(step, d) * np.eye(3)) / square
-        out[:, corner, :, corner] = np.eye(3)
-        out[:, curve, :, curve] = (-dyad / square).swapaxes(0, 1)
-        out[:, curve, :, curve + 8] = by_d.swapaxes(0, 1)
-        return out
+    def first(self, ends: np.ndarray) -> np.ndarray:
+        """Return derivatives (m, 12, 3, q, 3) of corners and a by the places."""
+        corners = np.einsum("kq,cd->kcqd", self.corners, np.eye(3))
+        curves = np.einsum("vmkcd,vkq->mkcqd", np.stack(across.first(*ends)), self.ends, optimize=True)
+        return np.concatenate([np.broadcast_to(corners, (len(curves), *corners.shape)), curves], axis=1)
 
     def second(self, ends: np.ndarray, pull: np.ndarray) -> np.ndarray:
-        """Return Σ f·∂²a (m, 20, 3, 20, 3) by the vectors of the linear map, of f on a (m, 8, 3)."""
-        (step, d), f = ends, pull
-        square, dyad, along, pulled = dot(d, d), outer(d, d), dot(step, d), dot(f, d)
-        both, mixed = outer(step, f), outer(step * pulled[..., 0] + f * along[..., 0], d)
-        crossed = 2.0 * pulled * dyad / square**2 - (outer(d, f) + pulled * np.eye(3)) / square
-        turned = (
-            2.0 * (mixed + along * pulled * (0.5 * np.eye(3) - 2.0 * dyad / square)) / square**2
-            - both / square
-        )
-        out, curve = np.zeros((len(d), LINEAR, 3, LINEAR, 3)), np.arange(4, 12)
-        out[:, curve, :, curve + 8] = crossed.swapaxes(0, 1)
-        out[:, curve + 8, :, curve] = crossed.swapaxes(0, 1).swapaxes(-1, -2)
-        out[:, curve + 8, :, curve + 8] = (turned + turned.swapaxes(-1, -2)).swapaxes(0, 1)
-        return out
+        """Return Σ f·∂²a (m, q, 3, q, 3) by the places, of f on a (m, 8, 3)."""
+        step, d = ends
+        mixed, both = across.second(step, d, pull)
+        by = np.stack([[np.zeros_like(both), mixed], [mixed.swapaxes(-1, -2), both]])
+        return np.einsum("vkq,vwmkcd,wkr->mqcrd", self.ends, by, self.ends, optimize=True)
 
 
 class CurvedSurface(MidSurface):

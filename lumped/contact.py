@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lumped.assembly import Assembly
-from lumped.cell_surface import LINEAR, CellSurface, CurvedSurface, shapes
+from lumped.cell_surface import CellSurface, CurvedSurface, shapes
 from lumped.items import Deformed, LatticeItem, Since
 from lumped.lattice import Lattice
 from lumped.masses import over_tributary
@@ -110,13 +110,17 @@ class Contact(LatticeItem):
             on, corners = np.unique(corners, return_inverse=True)
             r, s, self.groups = r[on], s[on], np.arange(len(on))[:, None]
         self.basis = shapes(r, s)
-        self.weights = self.basis[:, :4] @ self.surface.linear[:4]
+        self.weights = self.basis[:, :4] @ self.surface.corners
         plan, shape = (self.weights @ self._rest)[..., :2], (len(self.nodes), len(r))
         constants = constants_at(self._scene, plan).arrays(shape)
         self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
         self.full = self.full * (1.0 if at_corners else STIFFER)
         self.offset, areas = (0.5 + TOUCH) * self.thickness, self._lattice.cell_areas
         self.area = np.outer(areas[areas > 0.0], np.bincount(corners, minlength=len(r))) / len(corners)
+        within = (
+            0.25 / len(self.groups) * self.area.sum(axis=1)[:, None, None]
+        )  # by a part's dr ds, of −1 to 1
+        self.sizes = self.area[:, self.groups] if at_corners else within
         self.shares = self.basis if self.bent else self.weights
 
     def _surface(self, at: Deformed, of: Any) -> tuple[np.ndarray, Near]:
@@ -135,7 +139,7 @@ class Contact(LatticeItem):
         cell = number[row * (nx - 1) + column]
         share, nodes = shapes(r, s)[:, 4:] * (cell >= 0)[:, None], self.nodes[cell]
         vectors, ends = self.surface.vectors(self._rest[cell] + u[nodes])
-        by = np.einsum("kq,kqirj,ra->kiaj", share, self.surface.slopes(ends)[:, 4:], self.surface.linear)
+        by = np.einsum("kq,kqiaj->kiaj", share, self.surface.first(ends)[:, 4:])
         straight = MidSurface(self._lattice, plan, order=1)
         curves = np.einsum("kq,kqi->ki", share, vectors[:, 4:])
         return straight.of(u) + curves, CurvedSurface(self._lattice, plan, nodes, by)
@@ -146,20 +150,10 @@ class Contact(LatticeItem):
 
     def _law(self, depth: np.ndarray, of: Any, tangent: bool = False) -> tuple[np.ndarray, ...]:
         """Return energies, loads, slopes and deepest places at depths (m, t, n) (`Pressed`)."""
-        k, over = (
-            (self.share * self.full[of])[:, self.groups],
-            self.rounded * self.thickness[of][:, self.groups[:, 0]],
-        )
-        if not self.at_corners:
-            k *= (0.25 / len(self.groups) * self.area[of].sum(axis=1))[:, None, None]
-            found = integrate(depth.reshape(-1, 9), k.reshape(-1, 9), over.ravel(), tangent)
-            return tuple(each.reshape(*depth.shape[:2], *each.shape[1:]) for each in found)
-        k, over = k * self.area[of][:, self.groups], np.maximum(over, 1e-100)[..., None]
-        d = np.maximum(depth, 0.0)
-        curved, sure = np.minimum(d, over), np.maximum(d - over, 0.0)
-        energy = k * (curved**3 / (6.0 * over) + 0.5 * sure * (sure + over))
-        load, slope = k * (0.5 * curved**2 / over + sure), k * curved / over
-        return energy[..., 0], load, slope[..., None], depth[..., 0]
+        k = (self.share * self.full[of])[:, self.groups] * self.sizes[of]
+        over, n = self.rounded * self.thickness[of][:, self.groups[:, 0]], depth.shape[2]
+        found = integrate(depth.reshape(-1, n), k.reshape(-1, n), over.ravel(), tangent)
+        return tuple(each.reshape(*depth.shape[:2], *each.shape[1:]) for each in found)
 
     def _pressed(self, at: Deformed, since: Since = None, tangent: bool = False) -> Pressed:
         """Return the state of cells that may touch; since: the mean of a step from there."""
@@ -199,8 +193,7 @@ class Contact(LatticeItem):
         pressed = self._pressed(at, since)
         pull = self.shares.T @ (self._at_points(pressed.load)[..., None] * pressed.near.slope)
         if self.bent:
-            linear = np.einsum("mqi,mqirj->mrj", pull, self.surface.slopes(pressed.sides), optimize=True)
-            pull = self.surface.linear.T @ linear
+            pull = np.einsum("mqi,mqiaj->maj", pull, self.surface.first(pressed.sides), optimize=True)
         np.add.at(force, self.nodes[pressed.of], -pull)
         return float(pressed.energy.sum())
 
@@ -223,13 +216,11 @@ class Contact(LatticeItem):
             both = np.einsum("mpj,pa,pb->mabj", bent, shares, shares, optimize=True)
             by -= (both[:, :, None] * projector(self.obstacle)[:, None]).reshape(by.shape)
         if self.bent:
-            sides, linear = sides[:, on], self.surface.linear
-            first = self.surface.slopes(sides).reshape(-1, 36, 3 * LINEAR)
-            by = (first.swapaxes(1, 2) @ by @ first).reshape(-1, LINEAR, 3, LINEAR, 3)
+            first = self.surface.first(sides[:, on]).reshape(len(on), 36, -1)
+            by = first.swapaxes(1, 2) @ by @ first
             if not definite:
                 pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], near.slope[on])
-                by -= self.surface.second(sides, pull)
-            by = np.einsum("ra,mrisj,sb->maibj", linear, by, linear, optimize=True)
+                by -= self.surface.second(sides[:, on], pull).reshape(by.shape)
         size = self.nodes.shape[1]
         of_masses = by.reshape(-1, size, 3, size, 3).transpose(0, 1, 3, 2, 4)
         np.add.at(blocks, self.slots[of][on], scale * of_masses)

@@ -6,10 +6,11 @@ tangent K = −∂R/∂q at hand dq/dθ = K⁻¹ ∂R/∂θ and du/dθ = T dq/d�
 
     dJ/dθ = λ · ∂(f − f_int)/∂θ + ∂J/∂u · dg/dθ                                          (`pullback`).
 
-The derivatives by fields over the cells (`lumped.cell_fields`) are a sparse product of λ · ∂f_int/∂(constants
-of the springs), one loop with each law's own derivatives; by E and ρ of an even sheet they are its sums.
+The derivatives by fields over the cells (`lumped.cell_fields`) are sums of λ · ∂f_int/∂(constants of the
+springs), one loop with each law's own derivatives; by E and ρ of an even sheet they are the fields' sums.
 Other parameters of the scene have ∂R/∂θ as a central difference of the residual at fixed q
-(`lumped.parameter_sides`). Masses that touch an obstacle go on touching it.
+(`lumped.parameter_sides`), of the loads where nothing else changes. Masses that touch an obstacle go on
+touching it.
 
 Names: the parameters of `scenes.parameters` (young, patchN.young, loadN.force.z, natural.kxx, …;
 "material.young" and "sheet.thickness" too); the spring constants of `scenes.SpringSet` (axial_x, axial_y, …
@@ -44,41 +45,62 @@ from sheetbench.scenes.meaning.parameters import names_of, short_name
 
 FIELD = "cells."
 FORCES = "forces"
+TOGETHER = ("poisson", "thickness")
 FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
 
 
 Values = Mapping[str, np.ndarray]
 
 
-class Plain:
-    """A scene's lattice with its springs, and parts of its derivatives that do not depend on its shape.
-    calibrate: finds the springs of a changed scene; by default the calibration's method without options."""
+class Equilibrium:
+    """Derivatives at a stable equilibrium u (n, 3) [m] of a scene's lattice, made at u = 0. values: of fields
+    over the cells and forces, by name, in place of the scene's own. calibrate: finds the springs of a changed
+    scene; by default the calibration's method without options."""
 
-    _last: ClassVar[list[tuple[Any, Plain]]] = []
+    _last: ClassVar[list[tuple[Any, Equilibrium]]] = []
+    values: Values = MappingProxyType({})
 
     def __init__(self, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None):
         self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
-        self.problem = build_problem(scene, calibration)
-        self.cells = CellFields(scene, calibration, self.problem.assembly)
+        self.problem = self.plain = build_problem(scene, calibration)
+        self.cells, self.u = CellFields(scene, calibration, self.plain.assembly), 0.0 * self.plain.loads.dead
         self.constants, self._sides = calibration.constants.names(), dict[str, Sides]()
+        self._parts = dict(vars(self))
 
     @classmethod
-    def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Plain:
-        """Return the lattice of a scene; a small one that is equal to the last is not made again."""
+    def of(
+        cls,
+        scene: Scene,
+        calibration: Calibration,
+        u: np.ndarray | None = None,
+        calibrate: Calibrate | None = None,
+    ) -> Equilibrium:
+        """Return the derivatives at u of a scene's lattice with the springs of a calibration; a small lattice
+        that is equal to the last is not made again."""
         springs = calibration.springs, calibration.method, calibration.grading, calibration.masses
         key = calibrate, scene, calibration.grid, springs, id(calibration.cells)
-        for last, found in cls._last:
-            if last == key:
-                return found
-        found = cls(scene, calibration, calibrate)
-        if found.problem.assembly.lattice.mass_count <= SHARED_UP_TO:
-            cls._last = [(key, found)]
-        return found
+        found = next((found for last, found in cls._last if last == key), None)
+        if found is None:
+            found = cls(scene, calibration, calibrate)
+            if found.plain.assembly.lattice.mass_count <= SHARED_UP_TO:
+                cls._last = [(key, found)]
+        return found if u is None else found.at(u)
+
+    def at(self, u: np.ndarray, values: Values = MappingProxyType({})) -> Equilibrium:
+        """Return the derivatives at another equilibrium, with values of its own."""
+        other = object.__new__(type(self))
+        vars(other).update(self._parts, _parts=self._parts, u=u, values=values)
+        if values:
+            other.problem = other.with_values({})
+        return other
 
     def sides(self, name: str) -> Sides:
-        """Return `both_sides` of a parameter, made once."""
+        """Return `both_sides` of a parameter, made once; of ν and h together, as one pass finds all four."""
         if name not in self._sides:
-            self._sides[name] = both_sides(self.calibration, self.problem, name, self.calibrate)
+            even = self.calibration.cells is None and self.scene.material.poisson is not None
+            names = TOGETHER if even and name in TOGETHER else (name,)
+            sides = both_sides(self.calibration, self.plain, names, self.calibrate)
+            self._sides |= zip(names, sides, strict=True)
         return self._sides[name]
 
     def scaled_by(self, name: str) -> bool:
@@ -90,22 +112,6 @@ class Plain:
             return False
         pulled = scene.natural is not None and scene.natural.pretension is not None
         return name == "density" or (self.calibration.method.startswith("consistent") and not pulled)
-
-
-class Equilibrium:
-    """Derivatives at a stable equilibrium u (n, 3) [m] of a lattice. values: of fields over the cells and
-    forces, by name, in place of the scene's own."""
-
-    def __init__(self, base: Plain, u: np.ndarray, values: Values = MappingProxyType({})):
-        self.base, self.plain, self.cells, self.u, self.values = base, base.problem, base.cells, u, values
-        self.problem = self.with_values({}) if values else self.plain
-
-    @classmethod
-    def of(
-        cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
-    ) -> Equilibrium:
-        """Return the derivatives at u of a scene's lattice with the springs of a calibration."""
-        return cls(Plain.of(scene, calibration, calibrate), u)
 
     @property
     def fields(self) -> dict[str, np.ndarray]:
@@ -145,10 +151,8 @@ class Equilibrium:
 
     def names(self) -> list[str]:
         """Return the names of all derivatives."""
-        scene = self.problem.scene
-        isotropic = scene.material.kind != "orthotropic" and not scene.layers
-        fields = [name for name in NUMBERS if isotropic or name != "poisson"]
-        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(scene)]
+        fields = [name for name in NUMBERS if self.cells.isotropic or name != "poisson"]
+        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(self.scene)]
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives of J by name; by_displacement: ∂J/∂u (n, 3) of the masses."""
@@ -164,7 +168,7 @@ class Equilibrium:
         """Return the change (n, 3) [m] of the displacement by changes of parameters, to first order."""
         rows, moved = np.zeros(self.problem.system.unknowns), np.zeros_like(self.u)
         for name, change in changes.items():
-            rate, placed = self.rates(name, change)
+            rate, placed, _ = self.rates(name, change)
             rows, moved = rows + rate, moved + placed
         with one_blas_thread():
             return self.problem.expand(self._factor.solve(rows)) + moved
@@ -177,18 +181,34 @@ class Equilibrium:
         """Return the displacement (p, 3) [m] at plan points (p, 2), and the map of its changes."""
         return self.problem.middle(self.u, points)
 
-    def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray]:
-        """Return ∂R/∂θ (m,) and ∂u/∂θ (n, 3) at unknowns that stay as at u, times a change of a parameter."""
+    def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return ∂R/∂θ (m,) [N], and the rates of the displacement (n, 3) [m] and of the unbalanced force
+        (n, 3) [N] at unknowns that stay as at u, times a change of a parameter."""
         if name == FORCES:
-            return self.problem.reduce(np.asarray(change)), np.zeros_like(self.u)
-        if not name.startswith(FIELD):
-            _, moved, rows = rates(self.plain, self.u, self.base.sides(name), self.values)
-            return change * rows, change * moved
-        base, way = self.field(name), np.asarray(change, dtype=float)
-        usual = 1e-5 * np.abs(base).max() or 1e-5
-        step = FIELD_STEP.get(name.removeprefix(FIELD), usual) / (np.abs(way).max() or 1.0)
-        up, down = (self.with_values({name: base + h * way}).residual(self.u, 1.0) for h in (step, -step))
-        return (up.reduced - down.reduced) / (2.0 * step), np.zeros_like(self.u)
+            return self.problem.reduce(force := np.asarray(change)), np.zeros_like(self.u), force
+        if name.startswith(FIELD):
+            base, way = self.field(name), np.asarray(change, dtype=float)
+            usual = 1e-5 * np.abs(base).max() or 1e-5
+            step = FIELD_STEP.get(name.removeprefix(FIELD), usual) / (np.abs(way).max() or 1.0)
+            low, high = (self.with_values({name: base + h * way}) for h in (-step, step))
+            change, over = 1.0, 2.0 * step
+        else:
+            pairs, over = self.sides(name)
+            low, high = (
+                Equilibrium(side.scene, springs).at(self.u, self.values).problem if self.values else side
+                for side, springs in pairs
+            )
+        scale = change / over
+        if low.assembly is high.assembly and low.constraints is high.constraints and not low.items:
+            force = scale * (high.loads.force(self.u) - low.loads.force(self.u))
+            return self.problem.reduce(force), np.zeros_like(self.u), force
+        unknowns, found = self.problem.constraints.nearest(self.u - self.problem.prescribed(1.0)), []
+        for side in (low, high):
+            placed = side.expand(unknowns) + side.prescribed(1.0)
+            left = side.residual(placed, 1.0)
+            found.append((left.reduced, placed, left.force))
+        rows, moved, force = (scale * (up - down) for down, up in zip(*found, strict=True))
+        return rows, moved, force
 
     @cached_property
     def complete(self) -> Assembly:
@@ -222,20 +242,25 @@ class Gradient(Mapping[str, Any]):
     def _by_constants(self) -> list[np.ndarray]:
         return self._of.complete.all_families.powers_by_constants(self._of.u, self.by_forces)
 
+    @cached_property
+    def _by_state(self) -> dict[str, np.ndarray]:
+        return self._of.cells.by_state(self._of.fields, self._of.complete, self._by_constants)
+
     def __getitem__(self, name: str) -> Any:
         of, name = self._of, short_name(name)
         if name == FORCES:
             return self.by_forces
         if name.startswith(FIELD):
             of.field(name)
-            at = of.fields, of.complete, self._by_constants, self.by_forces
-            return of.cells.powers(name.removeprefix(FIELD), *at)
+            if (field := name.removeprefix(FIELD)) in STATE:
+                return self._by_state[field]
+            return of.cells.by_number(field, of.fields, of.complete, self._by_constants, self.by_forces)
         field = FIELD + name
-        if of.base.scaled_by(name) and field not in of.values:
+        if of.scaled_by(name) and field not in of.values:
             value = getattr(of.plain.scene.material, name)
             return float(np.sum(self[field] * of.field(field)) / value)
         with one_blas_thread():
-            rows, moved = of.rates(name)
+            rows, moved, _ = of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))
 
     def at_rest(self) -> Gradient:
@@ -247,24 +272,3 @@ class Gradient(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len(self._of.names())
-
-
-def rates(
-    problem: Problem,
-    u: np.ndarray,
-    both: Sides,
-    values: Values = MappingProxyType({}),
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return per unit of a parameter, at unknowns q that stay as at u (n, 3), the rates of the unbalanced
-    force (n, 3) [N] and of the displacement (n, 3) [m], and ∂R/∂θ (m,) [N]; both: of `both_sides`."""
-    unknowns = problem.constraints.nearest(u - problem.prescribed(1.0))
-    sides, over = both
-    found = []
-    for changed, springs in sides:
-        if values:
-            changed = Equilibrium(Plain(changed.scene, springs), u, values).problem
-        placed = changed.expand(unknowns) + changed.prescribed(1.0)
-        left = changed.residual(placed, 1.0)
-        found.append((left.force, placed, left.reduced))
-    force, moved, rows = ((up - down) / over for down, up in zip(*found, strict=True))
-    return force, moved, rows

@@ -32,9 +32,8 @@ from scipy.sparse.linalg import splu
 
 from lumped.calibration import Calibration, default
 from lumped.dynamics.system import System
-from lumped.gradient import rates
+from lumped.gradient import Equilibrium
 from lumped.loads import Loads
-from lumped.parameter_sides import both_sides
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
 from lumped.statics.solver import build_problem, stable_equilibrium
@@ -230,15 +229,14 @@ def _inputs(
     each; observation: (outputs, 3 size) map of displacements to the probes."""
     scene = problem.scene
     columns: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]] = []
-    zero = np.zeros(u.size)
+    zero, at = np.zeros(u.size), Equilibrium(scene, calibration).at(u)
     for name, part in _loads(scene):
         columns.append((name, Loads(part, problem.assembly).force(u).ravel(), zero, zero))
     for number, row in enumerate(observation):
         probe = list(scene.probes)[number // 3]
         columns.append((f"{probe} f{'xyz'[number % 3]}", row, zero, zero))
     for edge in _bent_edges(scene):
-        both = both_sides(calibration, problem, f"curvature_{edge}")
-        force, g, _ = rates(problem, u, both)
+        _, g, force = at.rates(f"curvature_{edge}")
         columns.append((f"{edge} curvature", force.ravel(), -drag @ g.ravel(), g.ravel()))
     for name, support in named(scene.supports).items():
         rows, axes = problem.constraints.holders[name]
@@ -250,7 +248,7 @@ def _inputs(
             columns.append((f"{name} {'xyz'[axis]}", -spring @ g, -drag @ g, g))
     bent = [of for of in scene.natural_states if of != "temperature"]
     for name in (f"{of}.{key}" for of in bent for key in ("kxx", "kyy", "kxy")):
-        pull, *_ = rates(problem, u, both_sides(calibration, problem, name))
+        *_, pull = at.rates(name)
         columns.append((name, pull.ravel(), zero, zero))
     names, *values = zip(*columns, strict=True)
     force, rate, displacement = (np.stack(value, axis=1) for value in values)

@@ -132,10 +132,8 @@ def _together(
     """Return the function that sets the displacements of a part of the designs, and whether each has
     converged."""
     problem, assembly, band = sheet.problem, sheet.problem.assembly, sheet.problem.system.band
-    base, of_cells = (
-        sheet.base[YOUNG].ravel(),
-        sheet.plain.cells.by_cells(sheet.calibration.constants, assembly),
-    )
+    base = sheet.base[YOUNG].ravel()
+    of_cells = sheet.cells.by_cells(sheet.calibration.constants, assembly, {}, None)
     assert band is not None
     of_start, _ = banded.factored(problem.tangent(start, 1.0), band)
     free, none = problem.constraints.transform_arrays, all_families.NO_STRESSES

@@ -41,7 +41,7 @@ class ModeGradient(Mapping[str, Any]):
         problem, u, shape, none = of.problem, of.u, of.problem.expand(mode), np.zeros_like(of.u)
         step = SMALL * problem.scene.sheet.thickness / np.abs(shape).max()
         ends = [(u + end * shape, 1.0 / (2.0 * end)) for end in (step, -step)]
-        sides = (Equilibrium(of.base, at) for at, _ in ends)
+        sides = (of.at(end) for end, _ in ends)
         self._terms = [(Gradient(side, none, mode), -by) for side, (_, by) in zip(sides, ends, strict=True)]
         if loaded:
             with one_blas_thread():
@@ -53,8 +53,8 @@ class ModeGradient(Mapping[str, Any]):
         if name in INERT:
             raise BadInput(f"{name}: frequencies have no derivative by it; take density or thickness")
         found = sum(by * term[name] for term, by in self._terms)
-        if not (name.startswith(FIELD) or name in self._of.base.constants):
-            (low, high), over = self._of.base.sides(name)
+        if not (name.startswith(FIELD) or name in self._of.constants):
+            (low, high), over = self._of.sides(name)
             masses = [self._mode @ (self._inertia(*side) @ self._mode) for side in (low, high)]
             found -= self._squared * (masses[1] - masses[0]) / over
         return found / (4.0 * np.pi * np.sqrt(self._squared))

@@ -16,7 +16,6 @@ resist strains of their natural sides. Derived for this project.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -54,15 +53,21 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
     return [one or family for family, one in zip(families, grown, strict=True)]
 
 
-def rates(
-    lattice: Lattice, families: Sequence[Family], state: tuple[np.ndarray, np.ndarray]
-) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return, for each family of a flat sheet, the adjacent cells of every spring (q, m), and the rates
-    (q, m, n, 6) of its constants and natural δg₀ by the cells' natural strain and curvature, xx, yy and xy;
-    state: both, (rows, columns, 2, 2)."""
-    no_springs = np.zeros((1, 0), int), np.zeros((1, 0, 1, 6))
-    every = _natural(lattice, families)
-    return [no_springs if one is None else (one.cells.T, one.rates(*state)) for one in every]
+def powers(
+    lattice: Lattice,
+    families: Sequence[Family],
+    state: tuple[np.ndarray, np.ndarray],
+    by: Sequence[np.ndarray],
+) -> np.ndarray:
+    """Return the derivatives of a power by the cells' natural strain and curvature, xx, yy and xy, (rows,
+    columns, 6). families: of a flat sheet; state: both, (rows, columns, 2, 2); by: the derivatives by every
+    spring's constants and natural δg₀ in this state."""
+    found = np.zeros((lattice.cell_areas.size, 6))
+    for springs, power in zip(_natural(lattice, families), by, strict=True):
+        if springs is not None:
+            for out, of in zip(found.T, springs.powers(*state, power), strict=True):
+                out += np.bincount(springs.cells.ravel(), of.ravel(), len(out))
+    return found.reshape(*lattice.cell_areas.shape, 6)
 
 
 @dataclass(frozen=True)
@@ -111,23 +116,24 @@ class _Natural:
             return replace(self.family, rest_length=natural[0], natural=natural[1])
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    def rates(self, strain: np.ndarray, k: np.ndarray) -> np.ndarray:
-        """Return the rates (q, m, n, 6); see `rates` above."""
+    def powers(self, strain: np.ndarray, k: np.ndarray, power: np.ndarray) -> np.ndarray:
+        """Return the derivatives (6, m, q); see `powers` above."""
         plan, growth = self._growth(strain, k)
-        by_change: Any = 0.0
+        found, by = np.zeros((6, *self.cells.shape)), power[:, None, -self.sides.shape[2] :]
         for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
-            b, height = other + other_growth, z[:, None, None, None]
-            xx, yy, xy, yx = (a[..., i] * b[..., j] for i, j in COMPONENTS)
-            by_strain = np.stack([xx, yy, xy + yx], axis=-1) * self.shares[..., None, None]
-            by_change += np.concatenate([by_strain, -height * by_strain], axis=-1)
-        by_change = by_change.swapaxes(0, 1)
-        if not isinstance(self.family, SpringCells):
-            return np.concatenate([np.zeros_like(by_change), by_change], axis=2)
-        by_strain = self._of_stiffness(strain)
-        return np.concatenate([np.append(by_strain, 0.0 * by_strain, axis=-1), by_change], axis=2)
+            b = other + other_growth
+            xx, yy, xy, yx = ((a[..., i] * b[..., j] * by).sum(axis=-1) for i, j in COMPONENTS)
+            for number, of in enumerate((xx, yy, xy + yx)):
+                found[number] += of
+                found[number + 3] -= z[:, None] * of
+        found *= self.shares
+        if isinstance(self.family, SpringCells):
+            by_constants = self._of_stiffness(strain)
+            found[:3, :, 0] += np.einsum("cnw,cn->wc", by_constants, power[:, : by_constants.shape[1]])
+        return found
 
     def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
-        """Return the rates (1, c, n, 3) of a cell's constants, by the change of its natural sides."""
+        """Return the rates (c, n, 3) of a cell's constants, by the change of its natural sides."""
         drawn = self.family.sides[..., :2]  # type: ignore[union-attr]
         constants = replace(self.family, stiffness=self.grown(strain)).constants  # type: ignore[union-attr]
         sides = drawn + drawn @ strain.reshape(-1, 2, 2)[self.cells[:, 0]]
@@ -135,7 +141,7 @@ class _Natural:
         of_area = np.einsum("cki,wcik->cw", np.linalg.inv(sides), change)
         of_sides = 2.0 * np.einsum("cik,wcik->ciw", sides, change) / (sides**2).sum(axis=2)[:, :, None]
         of_size = np.concatenate([of_area[:, None], of_sides], axis=1)
-        return np.asarray(constants[:, :, None] * (SIZE_POWERS @ of_size))[None]
+        return np.asarray(constants[:, :, None] * (SIZE_POWERS @ of_size))
 
 
 def _natural(lattice: Lattice, families: Sequence[Family]) -> list[_Natural | None]:

@@ -44,46 +44,46 @@ Sides = tuple[list[tuple[Problem, Calibration]], float]  # below and above, and 
 def both_sides(
     calibration: Calibration,
     problem: Problem,
-    name: str,
+    names: Sequence[str],
     calibrate: Calibrate | None = None,
     share: float = 0.0,
-) -> Sides:
-    """Return the problem and springs a little below and above a parameter, and the distance between both;
-    share: of its value, for steps by that share."""
-    scene, name = problem.scene, short_name(name)
-    if of_springs := name in (*calibration.constants.names(), "layer_distance"):
-        value, low, high = calibration.constants.value(name), -np.inf, np.inf
-    else:
-        entry = parameter(scene, name)
-        value, low, high = entry.value, entry.low, entry.high
-    key = name.partition(".")[2] if name.startswith(PATCH) else name
-    if scene.obstacles and key == "thickness":  # which moves the surface that presses in
-        key = OBSTACLE
-    step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
-    step = share * abs(value) or step
-    if step == 0.0:
-        raise BadInput(f"parameter {name!r} is zero: differences need a scale")
-    ends = np.clip([value - step, value + step], low, high).tolist()
+) -> list[Sides]:
+    """Return the problem and springs a little below and above each of some parameters of one kind, and the
+    distance between both; share: of its value, for steps by that share."""
+    scene, constants, changes = problem.scene, calibration.constants, list[tuple[str, float]]()
+    for name in map(short_name, names):
+        if of_springs := name in (*constants.names(), "layer_distance"):
+            value, low, high = constants.value(name), -np.inf, np.inf
+        else:
+            _, _, value, low, high = parameter(scene, name)
+        key = name.partition(".")[2] if name.startswith(PATCH) else name
+        if scene.obstacles and key == "thickness":  # which moves the surface that presses in
+            key = OBSTACLE
+        step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
+        step = share * abs(value) or step
+        if step == 0.0:
+            raise BadInput(f"parameter {name!r} is zero: differences need a scale")
+        changes += [(name, end) for end in np.clip([value - step, value + step], low, high).tolist()]
     if of_springs:
-        sides = [(scene, calibration.with_constant(name, end)) for end in ends]
+        sides = [(scene, calibration.with_constant(*change)) for change in changes]
     else:
-        sides = of_changed(scene, calibration, name, ends, calibrate, name.startswith(EDGES))
-    made = [(build_problem(side, springs, previous=problem), springs) for side, springs in sides]
-    return made, ends[1] - ends[0]
+        sides = of_changed(scene, calibration, changes, calibrate, names[0].startswith(EDGES))
+    made = [(build_problem(*side, previous=problem), side[1]) for side in sides]
+    return [(made[n : n + 2], changes[n + 1][1] - changes[n][1]) for n in range(0, len(made), 2)]
 
 
 def of_changed(
     scene: Scene,
     calibration: Calibration,
-    name: str,
-    values: Sequence[float],
+    changes: Sequence[tuple[str, float]],
     calibrate: Calibrate | None,
     checked: bool = True,
 ) -> list[tuple[Scene, Calibration]]:
-    """Return the scenes with other values (`put`), and the springs of each, calibrated again if they depend
-    on it."""
-    begins_on = name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
-    scenes = [put(scene, name, value, checked and not begins_on) for value in values]
+    """Return the scenes with one other value each (`put`), and the springs of each, calibrated again if they
+    depend on it; checked: whether the first is, as `put` does."""
+    name, _ = changes[0]
+    checked &= not name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
+    scenes = [put(scene, *change, checked and change is changes[0]) for change in changes]
     springs = [calibration] * len(scenes)
     if name.startswith(CALIBRATED_FROM):
         springs = [*map(calibrate, scenes)] if calibrate else _calibrated(calibration, scenes)

@@ -78,21 +78,18 @@ def transform(by: np.ndarray, q: np.ndarray, c: np.ndarray) -> None:
 def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, count: int) -> int:
     """Append Gauss points between lo and hi at a y to the first `count` of `points` (…, 3), x, y, weight;
     return the new count."""
-    lo, hi = max(lo, -1.0), min(hi, 1.0)
-    if hi > lo:
-        for g in range(len(ALONG)):
-            points[count, 0] = 0.5 * (lo + hi) + 0.5 * (hi - lo) * ALONG[g]
-            points[count, 1] = y
-            points[count, 2] = weight * 0.5 * (hi - lo) * ALONG_WEIGHTS[g]
-            count += 1
-    return count
+    for g in range(len(ALONG)):
+        points[count + g, 0] = 0.5 * (lo + hi) + 0.5 * (hi - lo) * ALONG[g]
+        points[count + g, 1] = y
+        points[count + g, 2] = weight * 0.5 * (hi - lo) * ALONG_WEIGHTS[g]
+    return count + len(ALONG)
 
 
 @inner()
 def patch(q: np.ndarray, points: np.ndarray) -> int:
     """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive: how
     many."""
-    count, c, ends, p = 0, np.empty((3, 3)), np.empty(12), np.zeros(5)
+    count, c, ends, p, cuts = 0, np.empty((3, 3)), np.empty(12), np.zeros(5), np.full(4, -1.0)
     transform(BERNSTEIN, q, c)
     if c.max() <= 0.0:
         return 0
@@ -122,18 +119,14 @@ def patch(q: np.ndarray, points: np.ndarray) -> int:
             y, w = middle + half * ACROSS[g], half * ACROSS_WEIGHTS[g]
             at = c[0] + y * (c[1] + y * c[2])
             disc = at[1] * at[1] - 4.0 * at[2] * at[0]
-            if disc <= 0.0:
-                if at[0] > 0.0:
-                    count = add_line(y, w, -1.0, 1.0, points, count)
-                continue
-            t = -0.5 * (at[1] + np.copysign(np.sqrt(disc), at[1]))
-            a, b = t / at[2], at[0] / t
-            lo, hi = min(a, b), max(a, b)
-            if at[2] < 0.0:
-                count = add_line(y, w, lo, hi, points, count)
-            else:
-                count = add_line(y, w, -1.0, lo, points, count)
-                count = add_line(y, w, hi, 1.0, points, count)
+            cuts[1:] = 1.0
+            if disc > 0.0:
+                t = -0.5 * (at[1] + np.copysign(np.sqrt(disc), at[1]))
+                cuts[1], cuts[2] = min(t / at[2], at[0] / t), max(t / at[2], at[0] / t)
+            for i in range(3):
+                lo, hi = max(cuts[i], -1.0), min(cuts[i + 1], 1.0)
+                if hi > lo and value(at, 2, 0.5 * (lo + hi)) > 0.0:
+                    count = add_line(y, w, lo, hi, points, count)
     return count
 
 
@@ -150,22 +143,23 @@ def shape(x: float, y: float, f: np.ndarray) -> None:
 def integrate(
     depth: np.ndarray, stiffness: np.ndarray, over: np.ndarray, tangent: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return energies ∫ ψ (m,) [J], loads ∫ ψ' φ (m, 9) [N] and ∫ ψ'' φ φᵀ (m, 9, 9) [N/m] of depths (m, 9)
-    [m], and the deepest (m,); stiffness: k (m, 9) [N/m]; over: δ (m,) [m], 0 for ψ = ½ k d²; tangent: whether
-    to compute ∫ ψ'' φ φᵀ."""
-    m = len(depth)
-    energy, load, by = np.zeros(m), np.zeros((m, 9)), np.zeros((m, 9, 9))
+    """Return energies ∫ ψ (m,) [J], loads ∫ ψ' φ (m, n) [N] and ∫ ψ'' φ φᵀ (m, n, n) [N/m] of depths (m, n)
+    [m], n = 9 of a patch or 1 of a point with φ = 1, and the deepest (m,); stiffness: k (m, n) [N/m]; over: δ
+    (m,) [m], 0 for ψ = ½ k d²; tangent: whether to compute ∫ ψ'' φ φᵀ."""
+    m, n = depth.shape
+    energy, load, by = np.zeros(m), np.zeros((m, n)), np.zeros((m, n, n))
     deepest = np.empty(m)
-    points, f, q = np.empty((MOST, 3)), np.empty(9), np.empty(9)
+    points, f, q = np.ones((MOST, 3)), np.ones(9), np.empty(9)
     for e in range(m):
         deepest[e] = depth[e].max()
         for turn in range(2 if over[e] > 0.0 else 1):  # ψ = k (⟨d⟩³ − ⟨d − δ⟩³)/6δ, or k ⟨d⟩²/2
-            for a in range(9):
+            for a in range(n):
                 q[a] = depth[e, a] - turn * over[e]
-            for g in range(patch(q, points)):
-                shape(points[g, 0], points[g, 1], f)
+            for g in range(patch(q, points) if n > 1 else int(q[0] > 0.0)):
+                if n > 1:
+                    shape(points[g, 0], points[g, 1], f)
                 d = k = 0.0
-                for a in range(9):
+                for a in range(n):
                     d += f[a] * q[a]
                     k += f[a] * stiffness[e, a]
                 deepest[e] = max(deepest[e], d + turn * over[e])
@@ -176,9 +170,9 @@ def integrate(
                 else:
                     psi, p, slope = 0.5 * k * d * d, k * d, k
                 energy[e] += psi
-                for a in range(9):
+                for a in range(n):
                     load[e, a] += p * f[a]
                     if tangent:
-                        for b in range(9):
+                        for b in range(n):
                             by[e, a, b] += slope * f[a] * f[b]
     return energy, load, by, deepest

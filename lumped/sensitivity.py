@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import Calibration, default
-from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient, Plain
+from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient
 from lumped.mid_surface import MidSurface
 from lumped.parameter_sides import Calibrate, of_changed
 from lumped.statics.problem import LatticePath, Problem
@@ -53,20 +53,20 @@ class Differentiable:
         self.scene = scene_of(scene)
         require_static(self.scene)
         self.calibration, self._calibrate = calibration or default(self.scene), calibrate
-        self.plain = Plain.of(self.scene, self.calibration, calibrate)
-        self._unsolved = Equilibrium(self.plain, np.zeros_like(self.plain.problem.loads.dead))
+        self._unsolved = Equilibrium.of(self.scene, self.calibration, None, calibrate)
+        self.cells = self._unsolved.cells
         self._last, self._values = self._unsolved, dict[str, np.ndarray]()
 
     @property
     def base(self) -> dict[str, np.ndarray]:
         """The scene's own fields over the cells, and zero forces."""
-        fields = {FIELD + name: field for name, field in self.plain.cells.base.items()}
+        fields = {FIELD + name: field for name, field in self.cells.base.items()}
         return {**fields, FORCES: np.zeros_like(self._unsolved.u)}
 
     @property
     def problem(self) -> Problem:
         """The scene's lattice under its supports and loads, with its own values."""
-        return self.plain.problem
+        return self._unsolved.problem
 
     def at(self, points: np.ndarray) -> Any:
         """Return the sparse map (3 p, 3 n), both flat, of displacements to values at plan points (p, 2).
@@ -95,10 +95,11 @@ class Differentiable:
         scene, calibration, of_cells = self.scene, self.calibration, (FIELD, FORCES)
         fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
         for name in values.keys() - fields.keys():
-            value = [float(values[name])]
-            ((scene, calibration),) = of_changed(scene, calibration, name, value, self._calibrate)
-        base = self.plain if scene is self.scene else Plain(scene, calibration, self._calibrate)
-        at = Equilibrium(base, self._unsolved.u, fields)
+            change = [(name, float(values[name]))]
+            ((scene, calibration),) = of_changed(scene, calibration, change, self._calibrate)
+        changed = scene is not self.scene
+        base = Equilibrium(scene, calibration, self._calibrate) if changed else self._unsolved
+        at = base.at(base.u, fields)
         near = None if at.problem.assembly.coupling is not None else near
         with one_blas_thread():
             path = solve_path(at.problem, near=near)

@@ -14,8 +14,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from copy import copy
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -27,10 +29,12 @@ from lumped.lattice import Lattice
 from lumped.pattern import SHARED_UP_TO, MassPattern
 from sheetbench.numerics.cache import cached, frozen
 from sheetbench.numerics.reduced_system import ReducedSystem, reduced
-from sheetbench.numerics.sparse_products import Rows, csr_arrays, product
+from sheetbench.numerics.sparse_products import Rows, csr_arrays, product, transposed_product
 from sheetbench.scenes import Scene, Sheet, Support, held_axes, tilt_axes
 from sheetbench.scenes.meaning.kinematics import TurnedEdge, bent_or_tilted, shifts
 from sheetbench.scenes.objects.supports import named
+
+PLACES = {"motion": None, "tilt": 0.0, "curvature": 0.0}  # keys of supports that move masses and hold none
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +56,13 @@ class Constraints:
 
     def on(self, lattice: Lattice) -> Constraints:
         """Return the constraints for a lattice with an equal plan."""
-        return self if lattice is self.lattice else replace(self, lattice=lattice)
+        return self if lattice is self.lattice else self.having(lattice=lattice)
+
+    def having(self, **parts: Any) -> Constraints:
+        """Return constraints with an equal transform, whose arrays are shared."""
+        arrays, other = self.transform_arrays, copy(self)
+        vars(other).update(parts, transform_arrays=arrays)
+        return other
 
     def turned(self, load_factor: float) -> np.ndarray:
         """Return the part of g (n, 3) [m] by bent rods and tilted clamps."""
@@ -76,7 +86,8 @@ class Constraints:
 
     def nearest(self, u: np.ndarray) -> np.ndarray:
         """Return the unknowns (m,) whose T q is closest to u (n, 3): (TᵀT)⁻¹ Tᵀ u."""
-        return self._normal_solve(self.transform.T @ u.ravel())
+        rows = transposed_product(self.transform_arrays, u.ravel(), self.transform.shape[1])
+        return self._normal_solve(rows)
 
     @cached_property
     def _normal_solve(self) -> Callable[[np.ndarray], np.ndarray]:
@@ -126,17 +137,34 @@ class Constraints:
 def constrain(scene: Scene, lattice: Lattice, coupling: Coupling | None = None) -> Constraints:
     """Return the constraints of a scene's supports on a lattice, and of its actuators: u of a bound mass is a
     linear map of the actuator's rows. An edge moved rigidly is held by the motion, not by supports.
-    Constraints without actuators on a small lattice are cached."""
+    Constraints without actuators on a small lattice are cached; supports that only move, tilt or bend
+    otherwise share a transform."""
     return _constrain(tuple(scene.supports), reached_parts(scene), scene.sheet, lattice, coupling)
 
 
-@cached(
-    last=16,
-    most=SHARED_UP_TO,
-    size=lambda _supports, _reached, _sheet, lattice, coupling: math.inf if coupling else lattice.mass_count,
-)
+def _size(*given: Any) -> float:
+    *_, lattice, coupling = given
+    return math.inf if coupling else float(lattice.mass_count)
+
+
+@cached(last=16, most=SHARED_UP_TO, size=_size)
 def _constrain(
     supports: tuple[Support, ...], reached: Reach, sheet: Sheet, lattice: Lattice, coupling: Coupling | None
+) -> Constraints:
+    places = [{key: PLACES[key] for key in PLACES if key in type(one).model_fields} for one in supports]
+    still = tuple(one.model_copy(update=of) for one, of in zip(supports, places, strict=True))
+    found = _constrain_still(still, reached, lattice, coupling)
+    shift = np.zeros(found.held.shape)
+    for moved in shifts(supports):
+        masses = found.holders[moved.support][0]
+        for axis, distance in zip(moved.axes, moved.displacement, strict=True):
+            shift[masses, axis] = distance
+    return found.having(driven=bent_or_tilted(supports, sheet), shift=shift)
+
+
+@cached(last=16, most=SHARED_UP_TO, size=_size)
+def _constrain_still(
+    supports: tuple[Support, ...], reached: Reach, lattice: Lattice, coupling: Coupling | None
 ) -> Constraints:
     moved = np.zeros(lattice.mass_count, dtype=bool) if coupling is None else coupling.moved
     n = lattice.mass_count if coupling is None else coupling.size
@@ -170,14 +198,8 @@ def _constrain(
     for of_others in maps:
         transform = sp.csr_array(transform + of_others @ transform)
     transform.sort_indices()
-    shift = np.zeros((n, 3))
-    for moved_support in shifts(supports):
-        masses = holders[moved_support.support][0]
-        for axis, distance in zip(moved_support.axes, moved_support.displacement, strict=True):
-            shift[masses, axis] = distance
     frozen(fixed)
-    driven = bent_or_tilted(supports, sheet)
-    return Constraints(transform, lattice, driven, shift, holders, held, fixed, coupling)
+    return Constraints(transform, lattice, [], np.zeros((n, 3)), holders, held, fixed, coupling)
 
 
 def _last_layers(n: int, components: np.ndarray) -> sp.csr_array:

@@ -102,21 +102,14 @@ class Touching(SheetItem):
     def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
         """Return the places of points beside the obstacle, and energies, loads and slopes of their groups."""
         found = self.near(shape)
-        depth, stiffness = (
-            found.sunk[..., self.groups],
-            self.share * self.full[:, self.groups] * self.of_groups,
-        )
-        over = self.rounded * self.thickness[:, self.groups[:, :1]] + 0.0 * depth[..., :1]
-        steps = [(1.0, 0.0, 3), (-1.0, 1.0, 3)] if self.rounded else [(1.0, 0.0, 2)]
-        out = np.zeros(depth.shape[:-1]), np.zeros(depth.shape), np.zeros((*depth.shape, 9))
-        for sign, less, power in steps:
-            q, k = depth - less * over, np.broadcast_to(sign * stiffness, depth.shape)
-            k = k / over if self.rounded else k
-            for total, part in zip(
-                out, patch.integrals(q.reshape(-1, 9), k.reshape(-1, 9), power), strict=True
-            ):
-                total += part.reshape(total.shape)
-        return found, out
+        depth = found.sunk[..., self.groups]
+        k = self.share * self.full[:, self.groups] * self.of_groups + 0.0 * depth
+        if not self.rounded:
+            return found, patch.integrals(depth, k, 2)
+        over = self.rounded * self.thickness[:, self.groups[:, :1]]
+        both = (patch.integrals(depth - less, k / over, 3) for less in (0.0, over))
+        energy, load, slope = (all_of - less for all_of, less in zip(*both, strict=True))
+        return found, (energy, load, slope)
 
     def _at_points(self, load: np.ndarray) -> np.ndarray:
         """Return sums at points (faces, m, p) of loads of groups."""

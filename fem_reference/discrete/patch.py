@@ -9,9 +9,12 @@ function of r, smooth between the real parts of the roots of three polynomials: 
 
 import numpy as np
 
+from sheetbench.numerics.across import outer
+
 # coefficients of a parabola by its values
 LINE = np.array([[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]])
 BERNSTEIN = np.array([[1.0, 0.0, 0.0], [-0.5, 2.0, -0.5], [0.0, 0.0, 1.0]])
+SUMS = np.eye(5)[np.add.outer(range(3), range(3)).ravel()]  # of products of coefficients, (9, 5)
 INNER, INNER_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _T, _W = np.polynomial.legendre.leggauss(14)
 OUTER, OUTER_WEIGHTS = 0.5 * (3.0 * _T - _T**3), 1.5 * (1.0 - _T**2) * _W
@@ -39,13 +42,10 @@ def basis(r: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 def points(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return r, s and weights (e, k) of integration points of the patches {q > 0} of values q (e, 9)."""
-    c = np.einsum("ai,bj,eij->eab", LINE, LINE, q.reshape(-1, 3, 3))
+    c = LINE @ q.reshape(-1, 3, 3) @ LINE.T
     sides = [roots(c[:, :, 0] + sign * c[:, :, 1] + c[:, :, 2]) for sign in (-1.0, 1.0)]
-    discriminant = np.zeros((len(q), 5))
-    for a in range(3):
-        for b in range(3):
-            discriminant[:, a + b] += c[:, a, 1] * c[:, b, 1] - 4.0 * c[:, a, 2] * c[:, b, 0]
-    ends = np.ones((len(q), 1))
+    products = outer(c[..., 1], c[..., 1]) - 4.0 * outer(c[..., 2], c[..., 0])
+    discriminant, ends = products.reshape(-1, 9) @ SUMS, np.ones((len(q), 1))
     stops = np.sort(np.hstack([-ends, *sides, roots(discriminant), ends]), axis=1)
     middle, half = 0.5 * (stops[:, 1:] + stops[:, :-1]), 0.5 * (stops[:, 1:] - stops[:, :-1])
     r = (middle[..., None] + half[..., None] * OUTER).reshape(len(q), -1)
@@ -54,13 +54,10 @@ def points(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     root = np.sqrt(np.maximum(y * y - 4.0 * x * z, 0.0))
     t = -0.5 * (y + np.copysign(root, y))
     with np.errstate(divide="ignore", invalid="ignore"):
-        pair = np.nan_to_num(np.stack([t / x, z / t]), nan=2.0, posinf=2.0, neginf=-2.0)
-    pair = np.sort(np.clip(pair, -1.0, 1.0), axis=0)
-    rootless = y * y <= 4.0 * x * z
-    cuts = np.stack([-np.ones_like(r), *pair, np.ones_like(r)])  # below, between and above the roots
-    low = np.where(rootless, cuts[[0, 3, 3]], cuts[:-1])
-    high = np.where(rootless, cuts[3], cuts[1:])
-    at = 0.5 * (low + high)
+        pair = np.nan_to_num(np.stack([t / x, z / t]), nan=1.0)
+    below, above = np.sort(np.clip(pair, -1.0, 1.0), axis=0)
+    low, high = np.stack([0.0 * r - 1.0, below, above]), np.stack([below, above, 0.0 * r + 1.0])
+    at = 0.5 * (low + high)  # of one sign up to both ends, also where there is no root
     inside = x * at * at + y * at + z > 0.0
     width = 0.5 * (high - low) * inside * weight
     s = at[..., None] + 0.5 * (high - low)[..., None] * INNER
@@ -69,21 +66,21 @@ def points(q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def integrals(q: np.ndarray, k: np.ndarray, power: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return ∫ k ⟨q⟩ᵖ/p! (e,) of values q, k (e, 9) and p = 2 or 3, and its first (e, 9) and second (e, 9, 9)
+    """Return ∫ k ⟨q⟩ᵖ/p! (…) of values q, k (…, 9) and p = 2 or 3, and its first (…, 9) and second (…, 9, 9)
     derivatives by q."""
-    out = np.zeros(len(q)), np.zeros((len(q), 9)), np.zeros((len(q), 9, 9))
-    bounds = np.einsum("ai,bj,eij->eab", BERNSTEIN, BERNSTEIN, q.reshape(-1, 3, 3)).reshape(-1, 9)
-    full, touched = bounds.min(axis=1) > FULL * bounds.max(axis=1), bounds.max(axis=1) > 0.0
-    r, s = (axis.ravel() for axis in np.meshgrid(INNER, INNER, indexing="ij"))
-    for rows in (np.flatnonzero(touched & full), np.flatnonzero(touched & ~full)):
-        if len(rows):
-            uniform = r[None], s[None], np.outer(INNER_WEIGHTS, INNER_WEIGHTS).reshape(1, -1)
-            at_r, at_s, weight = uniform if full[rows[0]] else points(q[rows])
-            share = np.broadcast_to(basis(at_r, at_s), (len(rows), at_r.shape[1], 9))
+    out = np.zeros(q.shape[:-1]), np.zeros(q.shape), np.zeros((*q.shape, 9))
+    bounds = q @ np.kron(BERNSTEIN, BERNSTEIN).T
+    full, touched = bounds.min(axis=-1) > FULL * bounds.max(axis=-1), bounds.max(axis=-1) > 0.0
+    r, s = (axis.reshape(1, -1) for axis in np.meshgrid(INNER, INNER, indexing="ij"))
+    uniform = r, s, np.outer(INNER_WEIGHTS, INNER_WEIGHTS).reshape(1, -1)
+    for rows, within in ((touched & full, True), (touched & ~full, False)):
+        if rows.any():
+            at_r, at_s, weight = uniform if within else points(q[rows])
+            share = np.broadcast_to(basis(at_r, at_s), (rows.sum(), at_r.shape[1], 9))
             d = np.maximum((share @ q[rows][..., None])[..., 0], 0.0)
             weight = weight * (share @ k[rows][..., None])[..., 0]
-            first, second = (d, 1.0) if power == 2 else (0.5 * d * d, d)
-            out[0][rows] = (weight * first * d).sum(axis=1) / power
-            out[1][rows] = ((weight * first)[:, None] @ share)[:, 0]
-            out[2][rows] = share.swapaxes(1, 2) @ ((weight * second)[..., None] * share)
+            first = weight * d ** (power - 1) / (power - 1)
+            out[0][rows] = (first * d).sum(axis=1) / power
+            out[1][rows] = (first[:, None] @ share)[:, 0]
+            out[2][rows] = share.swapaxes(1, 2) @ ((weight * d ** (power - 2))[..., None] * share)
     return out

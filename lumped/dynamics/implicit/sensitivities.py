@@ -55,9 +55,8 @@ class Sided:
     """A parameter's two systems, half the difference of their states, and the memories of their branches."""
 
     def __init__(self, scene: Scene, calibration: Calibration, weights: Weights, name: str):
-        (low, high), over = both_sides(
-            calibration, build_problem(scene, calibration, weights), name, share=STEP
-        )
+        problem = build_problem(scene, calibration, weights)
+        (((low, high), over),) = both_sides(calibration, problem, [name], share=STEP)
         made = [in_motion(side.scene, springs, weights) for side, springs in (high, low)]
         self.systems, states = zip(*made, strict=True)
         places = [system.problem.prescribed(1.0) for system in self.systems]

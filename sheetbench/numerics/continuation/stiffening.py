@@ -5,11 +5,12 @@ corrections each: Newton's method on a quadratic penalty is the primal–dual ac
 changes the active set slowly. So soft penalties are raised at the full load in stages of equal factors, each
 by Newton's method with extrapolated stresses. Under a given load a patch is k^(−1/2) deep where it touches
 around a point, k^(−2/3) along a line: from the second stage on, the shape goes as far beyond the last one as
-that depth does. All stages but the last end at a residual small enough for a rolling contact to settle while
-its patch is wide, and small beside what contact bears: a sheet that natural curvature bends may be light. A
-failed stage is repeated from the last shape itself with the square root of its factor. The status is the last
-stage's. If soft penalties fail or lead through an obstacle, `settle` starts again from rest with stiff ones,
-in load steps so short that no obstacle moves by more than a quarter of its radius in one.
+that depth does, but not where the patch keeps its area, as on a box's face, where depths are like 1/k. All
+stages but the last end at a residual small enough for a rolling contact to settle while its patch is wide,
+and small beside what contact bears: a sheet that natural curvature bends may be light. A failed stage is
+repeated from the last shape itself with the square root of its factor. The status is the last stage's. If
+soft penalties fail or lead through an obstacle, `settle` starts again from rest with stiff ones, in load
+steps so short that no obstacle moves by more than a quarter of its radius in one.
 
 A penalty has the `obstacle`, the acting `share` of its stiffness, whether its patch is within cells, `bent`,
 and at its points the full stiffness `full` (…) [Pa/m], `thickness` (…) [m] and `area` (…) [m²]; its method
@@ -30,6 +31,7 @@ from sheetbench.numerics.continuation.path import Fault, LoadStepFailed, Path
 from sheetbench.numerics.continuation.structure import Forces, State, Structure
 
 LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to stage
+NARROW = 0.8  # share of its area that a patch along a line or around a point has left after the first stage
 POINT, LINE = 1 / 2, 2 / 3  # powers of 1/k that depths of patches are like
 REACH = 0.1  # largest displacement of the first linear step; longer ones lead around a round obstacle
 LOOSE, CLOSE, CLOSER = 0.05, 0.01, 3e-3  # residuals at which soft load steps end, and stages but the last
@@ -124,11 +126,13 @@ def stiffened(
     return None
 
 
-def borne_share(path: Path[State, Forces]) -> float:
-    """Return the share that contacts bear of the forces in balance, which stresses at rest may be most of."""
+def touched(path: Path[State, Forces]) -> tuple[float, float]:
+    """Return the area in contact [m²], and the share that contacts bear of the forces in balance, which
+    stresses at rest may be most of."""
     at, size = path.structure.configuration(path.state, 1.0), path.structure.forces(path.state, 1.0).size
     states = [one.report(at)[0] for one in path.structure.contacts]
-    return min(1.0, sum(one.area * one.pressure for one in states) / (size or 1.0))
+    borne = sum(one.area * one.pressure for one in states)
+    return sum(one.area for one in states), min(1.0, borne / (size or 1.0))
 
 
 def _raised(path: Path[State, Forces], share: float) -> Fault | None:
@@ -136,16 +140,17 @@ def _raised(path: Path[State, Forces], share: float) -> Fault | None:
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
     path.limits = replace(path.limits, corrections=PATIENT, back=PATIENT)
-    within_cells = all(one.bent for one in structure.contacts)
+    narrow = within_cells = all(one.bent for one in structure.contacts)
     power = POINT if all(one.obstacle.kind == "sphere" for one in structure.contacts) else LINE
-    before, last, borne = path.state, 0.5, borne_share(path)
+    before, last, (area, borne) = path.state, 0.0, touched(path)
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
         soften(structure.contacts, target)
         shrunk = (share / target) ** power
         close = 0.0 if target == 1.0 else CLOSER * borne if within_cells else CLOSE
         try:
-            state, size = structure.restarted(path.state, before, (1.0 - shrunk) / (1.0 / last - 1.0))
+            beyond = (1.0 - shrunk) / (1.0 / last - 1.0) if last and narrow else 0.0
+            state, size = structure.restarted(path.state, before, beyond)
             found = newton(path, Start(state, 1.0, 1.0, size), close)
             require_way(path, found[0], 1.0)
         except LoadStepFailed as failure:
@@ -153,8 +158,9 @@ def _raised(path: Path[State, Forces], share: float) -> Fault | None:
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return Fault(failure.status, f"contact could not be stiffened: {failure}")
             continue
-        before, last = path.state if within_cells else found[0], shrunk
-        path.state, path.factor = found
+        before, (path.state, path.factor) = path.state, found
         if (fault := path.inspect(path)) is not None or target == 1.0:
             return fault
-        share = target
+        if not last:
+            narrow = narrow and touched(path)[0] < NARROW * area
+        share, last = target, shrunk

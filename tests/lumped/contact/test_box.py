@@ -28,12 +28,14 @@ def box_below(top, middle=(0.5, 0.05), size=(3.0, 1.0, 1.0), radius=0.1):
     return Box(position=(*middle, top - 0.5 * size[2]), size=size, radius=radius)
 
 
-@pytest.mark.parametrize("model", ["lumped", pytest.param("shell", marks=pytest.mark.nightly)])
-def test_strip_on_a_face_lies_as_on_a_plane(model):
-    """By the integrals of edges, that take three to eight times as many factorisations there."""
+@pytest.mark.parametrize(
+    ("model", "most"), [("lumped", 95), pytest.param("shell", 180, marks=pytest.mark.nightly)]
+)
+def test_strip_on_a_face_lies_as_on_a_plane(model, most):
+    """By the integrals of edges, that take three to seven times as many factorisations there."""
     scene = laid_strip(0.05, obstacles=(box_below(-0.05 - THICKNESS / 2),))
     solution = equilibrium(scene, model, (41, 3), (10, 1), graded=False)
-    assert solution.status is Status.CONVERGED
+    assert solution.status is Status.CONVERGED and solution.iterations <= most
     _, carried, _ = heavy_elastica(0.05)
     assert solution.reactions["x0"][2] / WEIGHT == pytest.approx(carried, rel=1e-3)
     assert sum(f[2] for f in solution.reactions.values()) == pytest.approx(WEIGHT, rel=1e-7)

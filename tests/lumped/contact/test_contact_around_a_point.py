@@ -111,6 +111,33 @@ def test_modes_do_not_lead_into_the_ball(model, rise):
     assert (np.abs(found.displacement(at)[:, 0, 2]) < 4e-3 * most).all()
 
 
+@pytest.mark.parametrize("at", [(0.08, 0.08), (0.0733, 0.0867)])
+def test_a_linear_system_beside_a_ball_is_the_derivative_of_the_residual(at):
+    """Its stiffness against the residual's differences, its frequencies against modes, and its answer to both
+    edges moved along z against the ball moved the other way."""
+
+    def pressed(rise):
+        held, probes = pressed_ball(at, rise).supports[:2], {"P": at, "Q": (0.03, 0.05)}
+        return pressed_ball(at, rise).replace(supports=held, probes=probes)
+
+    scene, h = pressed(1.5e-3), 3e-9
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 8, 2))
+    linear, problem = lumped.linearise(scene, springs), build_problem(scene, springs)
+    step = np.random.default_rng(4).normal(size=linear.stiffness.shape[0])
+    ends = [linear.displacement + sign * h * problem.expand(step) for sign in (1.0, -1.0)]
+    high, low = (problem.reduce(problem.internal(u, 1.0)[1]) for u in ends)
+    along = (high - low) / (2 * h)
+    assert np.linalg.norm(linear.stiffness @ step - along) < 1e-7 * np.linalg.norm(along)
+    found = lumped.modes(scene, springs, 4, "gregory", about="deformed").frequencies
+    assert linear.state_space(4).frequencies == pytest.approx(found, rel=1e-6)
+    edges = [linear.inputs.index(f"{edge} z") for edge in ("x0", "x1")]
+    lifted = linear.jacobian[:, edges].sum(axis=1)
+    less, more = (lumped.solve(pressed(rise), springs) for rise in (1.499e-3, 1.501e-3))
+    points = scene.probe_points()
+    change = (more.displacement(points) - less.displacement(points)).ravel() / 2e-6
+    assert lifted == pytest.approx(np.tile([0.0, 0.0, 1.0], 2) - change, abs=1e-5)
+
+
 @pytest.mark.parametrize(("at", "rigid"), [((0.08, 0.08), 7.400e-4), ((0.0733, 0.0867), 7.535e-4)])
 @pytest.mark.parametrize("side", [9, 10, 17])
 def test_ball_is_felt_wherever_masses_are(at, rigid, side):

@@ -5,13 +5,14 @@ import re
 import numpy as np
 import pytest
 from cases import sheet
-from contact_cases import DROP, FALLEN, GRAVITY
+from contact_cases import DROP, FALLEN, GRAVITY, pressed_ball
 from contact_cases import FALLING as STRIP
 from scipy.optimize import brentq
 
 import lumped
 from lumped.contact import MOVING
 from lumped.dynamics.explicit.step_limit import SAFETY, TOUCHING
+from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Gravity, Held, Motion, Plane
 
@@ -142,3 +143,21 @@ def test_a_press_does_its_work(integrator):
     assert work > 0.0
     gained = history.energies["kinetic"][-1] + history.energies["elastic"][-1]
     assert gained == pytest.approx(work, rel=5e-3)
+
+
+@pytest.mark.nightly
+def test_probes_in_motion_are_on_cubics_over_a_ball():
+    """A third short of the place at rest, by the give of contact in motion; on cells still more."""
+    at, rise = (0.0733, 0.0867), 1.5e-3
+    still = pressed_ball(at, rise)
+    lift = still.obstacles[0].motion.replace(time=(0.0, 0.05))
+    damped = still.material.replace(damping_rate=60.0)
+    scene = still.replace(
+        obstacles=(still.obstacles[0].replace(motion=lift),), material=damped, probes={"P": at}
+    )
+    springs = lumped.calibrate(scene.sheet, scene.material, grid=(9, 9, 2))
+    history = lumped.simulate(scene, springs, 0.25, every=0.0125, frames=20)
+    lattice = build_problem(scene, springs).assembly.lattice
+    on_cells = lumped.MidSurface(lattice, np.array([at]), order=1).of(history.extra["frames"][-1])[0, 2]
+    assert history.probes["P"][-1, 2] == pytest.approx(1.01e-3, rel=0.01)
+    assert on_cells == pytest.approx(0.96e-3, rel=0.01)

@@ -18,9 +18,9 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
+from lumped import across
 from lumped.lattice import Lattice
 from lumped.mid_surface import MidSurface
-from sheetbench.numerics import across
 from sheetbench.scenes.objects.grid import Grid
 
 SIDES = np.array([[0, 1], [1, 2], [3, 2], [0, 3]])

@@ -9,7 +9,7 @@ function of r, smooth between the real parts of the roots of three polynomials: 
 
 import numpy as np
 
-from sheetbench.numerics.across import outer
+from fem_reference.surface.triad import outer
 
 # coefficients of a parabola by its values
 LINE = np.array([[0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [0.5, -1.0, 0.5]])

@@ -10,20 +10,19 @@ with the quadratic shape functions L across: all elements at a node have its tan
 0, is made of parabolas that join without a kink, so that P is biquadratic on each of 4 × 4 parts.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from skfem import ElementQuad2, MeshQuad
 
 from fem_reference.surface.biquadratic import lagrange, shape
 from fem_reference.surface.location import locate
-from sheetbench.numerics import across
+from fem_reference.surface.triad import outer
 
 NODES = 2.0 * ElementQuad2().doflocs - 1.0  # (9, 2)
 SLOPES = shape(*NODES.T)[1]  # (2, 9, 9), of φ by r, s at nodes
 LINEAR = np.zeros((2, 9, 2, 18))  # φ,k and d at each node by φ and d of all
 LINEAR[:, :, 0, :9] = SLOPES
 LINEAR[:, range(9), 1, range(9, 18)] = 1.0
+EYE = np.eye(3)
 
 
 def shares(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -39,28 +38,26 @@ def shares(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.hstack([turn[0] * across, along * turn[1]]), hats[0] * hats[1]
 
 
-def _at_nodes(vectors: np.ndarray) -> np.ndarray:
-    """Return φ,k and d (2, m, 2, 9, 3) of vectors (m, 18, 3)."""
-    return np.asarray(np.einsum("kivj,ejc->vekic", LINEAR, vectors, optimize=True))
+def _at_nodes(vectors: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return φ,k and d (m, 2, 9, 3), and φ,k·d and d·d (m, 2, 9, 1), of vectors (m, 18, 3)."""
+    slope, d = np.einsum("kivj,ejc->vekic", LINEAR, vectors, optimize=True)
+    return slope, d, (slope * d).sum(-1, keepdims=True), (d * d).sum(-1, keepdims=True)
 
 
 def corrections(vectors: np.ndarray) -> np.ndarray:
     """Return a (m, 18, 3) along r, then s."""
-    return across.correction(*_at_nodes(vectors)).reshape(-1, 18, 3)
+    _, d, along, square = _at_nodes(vectors)
+    return np.asarray(-along / square * d).reshape(-1, 18, 3)
 
 
 def first(vectors: np.ndarray) -> np.ndarray:
     """Return derivatives (m, 18, 3, 18, 3) of a by the vectors."""
-    by = np.stack(across.first(*_at_nodes(vectors)))
+    slope, d, along, square = _at_nodes(vectors)
+    along, square, dyad = along[..., None], square[..., None], outer(d, d)
+    by = np.stack(
+        [-dyad / square, -(along * EYE + outer(d, slope)) / square + 2.0 * along * dyad / square**2]
+    )
     return np.einsum("vekicd,kivj->ekicjd", by, LINEAR, optimize=True).reshape(-1, 18, 3, 18, 3)
-
-
-def second(vectors: np.ndarray, pull: np.ndarray) -> np.ndarray:
-    """Return Σ f·∂²a (m, 18, 3, 18, 3) by the vectors, of f on a (m, 18, 3)."""
-    slope, d = _at_nodes(vectors)
-    mixed, both = across.second(slope, d, pull.reshape(-1, 2, 9, 3))
-    by = np.stack([[np.zeros_like(both), mixed], [mixed.swapaxes(-1, -2), both]])
-    return np.einsum("kivj,vwekicd,kiwl->ejcld", LINEAR, by, LINEAR, optimize=True)
 
 
 def change_at(mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -70,3 +67,23 @@ def change_at(mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> tuple[
     share, _ = shares(*place)
     by = np.einsum("pn,pnijc->pijc", share, first(vectors[on]))
     return on, np.einsum("pn,pni->pi", share, corrections(vectors[on])), by
+
+
+def second(vectors: np.ndarray, pull: np.ndarray) -> np.ndarray:
+    """Return Σ f·∂²a (m, 18, 3, 18, 3) by the vectors, of f on a (m, 18, 3)."""
+    slope, d, along, square = _at_nodes(vectors)
+    f = pull.reshape(d.shape)
+    pulled = (f * d).sum(-1, keepdims=True)
+    turned = slope * pulled + f * along
+    mixed, both = outer(d, f) + pulled[..., None] * EYE, outer(slope, f) + outer(f, slope)
+    cross = outer(turned, d) + outer(d, turned)
+    along, pulled, square, dyad = along[..., None], pulled[..., None], square[..., None], outer(d, d)
+    by = np.zeros((2, 2, *dyad.shape))
+    by[0, 1] = -mixed / square + 2.0 * pulled * dyad / square**2
+    by[1, 0] = by[0, 1].swapaxes(-1, -2)
+    by[1, 1] = (
+        -both / square
+        + 2.0 * (cross + along * pulled * EYE) / square**2
+        - 8.0 * along * pulled * dyad / square**3
+    )
+    return np.einsum("kivj,vwekicd,kiwl->ejcld", LINEAR, by, LINEAR, optimize=True)

@@ -22,8 +22,7 @@ from fem_reference.shell.slant import linear, slant
 from fem_reference.surface.biquadratic import integrated
 from fem_reference.surface.constants import Values, material_with
 from fem_reference.surface.materials import section_of
-from fem_reference.surface.triad import Triad
-from sheetbench.numerics.across import outer
+from fem_reference.surface.triad import Triad, outer
 from sheetbench.scenes import Material
 
 _LEVELS, _SHARES = np.polynomial.legendre.leggauss(3)

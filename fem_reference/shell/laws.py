@@ -28,8 +28,7 @@ import numpy as np
 
 from fem_reference.surface.materials import plane_stress, shear_modulus
 from fem_reference.surface.rubber import slopes
-from fem_reference.surface.triad import Triad
-from sheetbench.numerics.across import outer
+from fem_reference.surface.triad import Triad, outer
 from sheetbench.scenes import Material
 from sheetbench.scenes.objects.material import WORDS, Energy
 

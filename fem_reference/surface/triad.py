@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from fem_reference.surface.materials import times
-from sheetbench.numerics.across import outer
 
 
 class Triad(NamedTuple):
@@ -32,3 +31,8 @@ class Triad(NamedTuple):
         bend = (exponent - 1.0) * slope / self.value
         twice = times(slope, self.second) + times(bend, outer(self.first, self.first))
         return Triad(value, slope[..., None] * self.first, twice)
+
+
+def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return a ⊗ b (…, k, l) of vectors (…, k) and (…, l)."""
+    return np.asarray(a[..., :, None] * b[..., None, :])

@@ -17,7 +17,7 @@ import numpy as np
 
 from comparisons.codes.coefficients import five
 from sheetbench.errors import BadInput
-from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene
+from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene, Sheet
 from sheetbench.scenes.objects.fields import POINTS
 from sheetbench.scenes.objects.grid import near_square
 from sheetbench.scenes.objects.shapes import Shape
@@ -25,6 +25,7 @@ from sheetbench.scenes.objects.supports import Point, named, place
 
 HELD = ("support.where", POINTS)  # what `refusal` looks at for itself
 ON_A_LINE = 1e-6  # of a square
+FINEST = 400  # squares along the shorter side of the meshes that a refusal looks for
 ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
 
 
@@ -98,9 +99,19 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
         held |= (distance >= 0) & any(support.edge == edge for support in scene.supports)
         inside &= distance <= 0
         share[distance == 0] *= 0.5
-    for name, support in named(scene.supports).items():
-        if (shape := place(support)) is not None:
-            held |= _find_held(shape, name, (i, j), spacing, counts)
+    shapes = {name: shape for name, one in named(scene.supports).items() if (shape := place(one)) is not None}
+
+    def fits(squares: int) -> bool:
+        return all(_held_rows(shape, scene.sheet, squares) is not None for shape in shapes.values())
+
+    for name, shape in shapes.items():
+        if (rows := _held_rows(shape, scene.sheet, squares)) is None:
+            finer = range(squares + 1, FINEST)
+            other = next((f"--grid {n + 1}" for n in finer if fits(n)), "another --grid")
+            of = f"{counts[0]} × {counts[1]} squares"
+            raise BadInput(f"{name}: {shape.in_words()}: its sides are not on vertices of {of}; take {other}")
+        (left, right), (lower, upper) = rows
+        held |= (i >= left) & (i <= right) & (j >= lower) & (j <= upper)
     on_sheet = inside.ravel()[triangles].all(axis=1)
     plan = [
         (n.ravel() - (1.0 - beyond_share) * (n.ravel() - np.clip(n.ravel(), 0, count))) * side
@@ -145,20 +156,17 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
     )
 
 
-def _find_held(
-    shape: Shape, name: str, at: tuple[np.ndarray, np.ndarray], spacing: np.ndarray, counts: tuple[int, int]
-) -> np.ndarray:
-    """Return a mask of the vertices that a point or a rectangle holds; at: their numbers along x and y.
-    Raises BadInput where the sides of it do not lie on lines of vertices."""
+def _held_rows(shape: Shape, sheet: Sheet, squares: int) -> list[np.ndarray] | None:
+    """Return the first and last rows of vertices, along x and along y, that a point or a rectangle holds; or
+    None where its sides are not on rows of vertices."""
     assert shape.rectangle is not None  # `refusal` has other shapes
-    held = np.ones(at[0].shape, dtype=bool)
-    for axis, (low, high) in enumerate((shape.rectangle.x, shape.rectangle.y)):
-        first, last = max(low / spacing[axis], 0.0), min(high / spacing[axis], counts[axis])
-        if max(abs(first - round(first)), abs(last - round(last))) > ON_A_LINE:
-            squares = f"{counts[0]} × {counts[1]} squares"
-            raise BadInput(f"{name}: {shape.in_words()}: no vertices of {squares} there; take another --grid")
-        held &= (at[axis] >= round(first)) & (at[axis] <= round(last))
-    return held
+    sides, rows = (shape.rectangle.x, shape.rectangle.y), []
+    for ends, length, count in zip(sides, sheet.lengths, near_square(sheet, squares), strict=True):
+        at = np.clip(np.array(ends) * count / length, 0.0, count)
+        if np.abs(at - np.rint(at)).max() > ON_A_LINE:
+            return None
+        rows.append(np.rint(at))
+    return rows
 
 
 def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> tuple[SheetMesh, np.ndarray]:

@@ -43,8 +43,9 @@ def test_single_vertices_and_corners_are_held(code):
     squares = setup(TRAMPOLINE.replace(supports=corners(0.375)), code, 4, named=False).problem.mesh
     assert len(np.unique(squares.vertices[squares.held][:, :2], axis=0)) == 16
     for supports, why in (
-        ((scenes.Point(at=(0.1, 0.0)), *corners(0.0)), "no vertices of 4 × 4 squares there; take another"),
-        (corners(0.2), "no vertices of 4 × 4 squares there; take another --grid"),
+        ((scenes.Point(at=(0.1, 0.0)), *corners(0.0)), "not on vertices of 4 × 4 squares; take --grid 16"),
+        (corners(0.2), "its sides are not on vertices of 4 × 4 squares; take --grid 16"),
+        (corners(0.1 * np.sqrt(2.0)), "not on vertices of 4 × 4 squares; take another --grid"),
     ):
         with pytest.raises(BadInput, match=why):
             _ = setup(TRAMPOLINE.replace(supports=supports), code, 4, named=False).problem

@@ -38,6 +38,7 @@ GIVEN_BY_THE_READER = {
     "SCENE",
     "machine.csv",
     "mujoco=.venv-mujoco/bin/python",
+    "tcp://10.0.0.1:8786",
 }
 SERVERS = {"live"}
 

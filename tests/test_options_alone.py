@@ -93,6 +93,8 @@ VALUES = {  # of options that all verbs with them take alike, then of verbs
     "--suite": "curves",
     "--case": "thin",
     "--buckling": None,
+    "--settle": None,
+    "--sensitivity": "young",
 }
 OF_VERB = {
     ("tradeoff", "--lumped"): "3,5",
@@ -134,13 +136,14 @@ SAME = {  # no number of the answer is another with them, and why
         ("--json", "--out", "--overwrite", "--figure", "--no-pictures", "--quiet", "--verbose", "--export"),
         PLACES,
     ),
-    **dict.fromkeys(("--toml", "--animate"), PLACES),
+    **dict.fromkeys(("--toml", "--animate", "--precision"), PLACES),
     "--large": "lets a model be larger than memory",
     **dict.fromkeys(("--workers", "--scheduler", "--retry"), "how runs are carried out"),
     "--repeats": "times alone",
 }
 SAME_OF = {
     ("check", "--schema"): "the language of scenes in place of a scene",
+    ("calibrate", "--from"): "a code's coefficients in place of a scene",
     ("identify", "--refine"): "what is done unless it is declined",
     ("compare", "--uncertainty"): "for motions, and what is done at rest unless it is declined",
     ("compare", "--branch"): "a stable sheet has no other branch; a note says of what it tells",

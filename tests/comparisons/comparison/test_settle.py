@@ -1,5 +1,7 @@
 """Sheets that statics do not bring to rest, begun where their motion ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from commands import one_line, run
@@ -72,11 +74,12 @@ def test_a_descent_ends_where_rounding_is_all_that_is_left():
     """Rounding of the stiff links through the thickness exceeds their estimate in a thin sheet on a ball."""
     springs = lumped.calibrate(THIN.sheet, THIN.material, grid=(5, 5))
     problem = lumped.build_problem(THIN, springs)
-    path = Path(problem, problem, problem.rest(), limits=problem.limits)
+    unreached = 1e-14  # of forces: whatever the order of sums leaves is more
+    path = Path(problem, problem, problem.rest(), limits=replace(problem.limits, tolerance=unreached))
     path.limit = 2000
     state = descend(path, 1.0)
     residual = problem.residual(state.u, 1.0)
-    assert problem.limits.tolerance < residual.norm / residual.size < 1e-8
+    assert unreached < residual.norm / residual.size < 1e-8
     assert path.factored(path.tangent(state, 1.0)).negative == 0 and path.factorisations < 600
 
 

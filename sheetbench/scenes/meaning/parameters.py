@@ -125,26 +125,11 @@ def names_of(scene: SceneFields) -> list[str]:
     there = (_numbered(key, most) for key, place in PLACES.items() if getattr(scene, place.split(".")[0]))
     names = []
     for name in (*chain.from_iterable(there), *ends):
-        if (place := _place(name)) is not None and not _given(scene, place):
-            continue
         with suppress(BadInput, TypeError):
             finite = isfinite(parameter(scene, name).value)  # a plane's radius is not
             if finite and not OVER_TIME.match(name):
                 names.append(name)
     return names
-
-
-def _given(scene: SceneFields, path: Path) -> bool:
-    """Return whether a scene has a value at a path, but for an angle, which is 0 unless given."""
-    of: Any = scene
-    for part in path:
-        try:
-            of = of[part] if isinstance(part, int) else getattr(of, part)
-        except (AttributeError, IndexError, TypeError):
-            return False
-        if of is None:
-            return part == "angle"
-    return True
 
 
 @cache

@@ -72,8 +72,8 @@ class EsdirkStep:
         self, times: np.ndarray, end: State, newton: Newton, tolerance: float | None, enough: float
     ) -> LatticeSamples:
         """Return the states at times (k,) [s] within the step, which may take its end; energies since it
-        began. tolerance: as of `Newton.solve_equation`; enough: up to which energy [J] too much
-        (`Newton.excess`) of the state nearest to the step's middle the polynomials serve."""
+        began. tolerance: as of `Newton.solve_equation`; enough: excess energy [J] (`Newton.excess`) up to
+        which the polynomials serve."""
         stages, h = self.stages, self.h
         theta = (times - stages.time[0]) / h
         u, v, a = self._within(theta)
@@ -84,18 +84,21 @@ class EsdirkStep:
         inside = [system] * len(times)
         if system.maxwell is not None:
             inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
-        c1, reaches_end, i = 1.0 / (GAMMA * h), end.time == times[-1], int(np.abs(theta - 0.5).argmin())
-        if newton.excess(inside[i], State(float(times[i]), u[i], v[i], a[i]), (c1**2, c1)) > enough:
-            for i in range(len(times) - reaches_end):
-                base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
-                equation = StepEquation(inside[i], float(times[i]), *base, (c1**2, c1))
-                corrected = u[i]  # the polynomial's stays where there is no solution
-                for stale in (None, STALE):  # with the step's factors, or anew with the best
-                    with suppress(StepFailed, SingularMatrixError):
-                        corrected = newton.solve_equation(equation, u[i], tolerance, stale)
-                        break
-                a[i] += c1**2 * (corrected - u[i])
-                u[i] = corrected
+        c1, reaches_end = 1.0 / (GAMMA * h), end.time == times[-1]
+        by = c1**2, c1
+        for i in range(len(times) - reaches_end):
+            polynomial = State(float(times[i]), u[i], v[i], a[i])
+            if newton.excess(inside[i], polynomial, by) <= enough:
+                continue
+            base = u[i] - a[i] / c1**2, v[i] - a[i] / c1
+            equation = StepEquation(inside[i], polynomial.time, *base, by)
+            corrected = u[i]  # the polynomial's stays where there is no solution
+            for stale in (None, STALE):  # with the step's factors, or anew with the best
+                with suppress(StepFailed, SingularMatrixError):
+                    corrected = newton.solve_equation(equation, u[i], tolerance, stale)
+                    break
+            a[i] += c1**2 * (corrected - u[i])
+            u[i] = corrected
         if reaches_end:
             u[-1], v[-1], a[-1] = end.u, end.v, end.a
         for i, one in enumerate(inside if start is not None else ()):

@@ -16,6 +16,7 @@ reports this in its Solution's status. docs/plugin.py is a short example.
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
 from collections.abc import Mapping
@@ -24,7 +25,6 @@ from functools import cache
 from hashlib import sha256
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
-from modulefinder import ModuleFinder
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol, runtime_checkable
@@ -190,12 +190,25 @@ def _entry_points() -> dict[str, EntryPoint]:
 
 def _files_of(file: Path) -> dict[str, Path]:
     """Return a file and the modules and packages it imports from its own folder, by their paths there."""
-    folder = file.resolve().parent
-    finder = ModuleFinder(path=[str(folder)])
+    folder, found, ahead = file.resolve().parent, set[Path](), [file.resolve()]
+    while ahead:
+        found.add(path := ahead.pop())
+        for name in _imported(path):
+            own = [folder / f"{name}.py", *(folder / name).rglob("*.py")]
+            ahead += [module for module in own if module not in found and module.is_file()]
+    return {path.relative_to(folder).as_posix(): path for path in found}
+
+
+def _imported(file: Path) -> set[str]:
+    """Return the first parts of the names of modules that a file imports."""
+    names: set[str] = set()
     with suppress(SyntaxError, ValueError):  # reported when it is loaded
-        finder.run_script(str(file.resolve()))
-    imported = [Path(at) for module in finder.modules.values() if (at := getattr(module, "__file__", None))]
-    return {path.relative_to(folder).as_posix(): path for path in {file.resolve(), *imported}}
+        for node in ast.walk(ast.parse(file.read_bytes())):
+            if isinstance(node, ast.Import):
+                names.update(one.name.partition(".")[0] for one in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module:
+                names.add(node.module.partition(".")[0])
+    return names
 
 
 def _files_of_module(name: str) -> dict[str, Path]:
@@ -205,7 +218,7 @@ def _files_of_module(name: str) -> dict[str, Path]:
         return {}
     places = spec.submodule_search_locations
     if not places:
-        return _files_of(Path(spec.origin))
+        return {Path(spec.origin).name: Path(spec.origin)}
     files = ((Path(place), path) for place in places for path in Path(place).rglob("*.py"))
     return {path.relative_to(place).as_posix(): path for place, path in files}
 

@@ -102,11 +102,14 @@ def test_one_that_ends_the_program_is_refused(tmp_path, capsys, where):
 
 
 def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_path):
-    """Rows of an edited plug-in were read as if nothing had changed."""
-    file, beside = tmp_path / "own.py", tmp_path / "constants.py"
+    """Rows of an edited plug-in were read as if nothing had changed; a folder of modules without
+    `__init__.py` was a fault of the program."""
+    file, beside, part = tmp_path / "own.py", tmp_path / "constants.py", tmp_path / "parts" / "unit.py"
     example = (DOCS / "plugin.py").read_text()
     file.write_text(f"from constants import UNIT\n{example}")
-    beside.write_text("UNIT = 1\n")
+    beside.write_text("import parts.unit\nUNIT = 1\n")
+    part.parent.mkdir()
+    part.write_text("x = 1\n")
     (tmp_path / "elsewhere.py").write_text("x = 1\n")
     name = f"{file}:Strip"
 
@@ -116,10 +119,12 @@ def test_a_row_is_of_the_plug_in_as_it_is_and_of_what_it_imports_beside_it(tmp_p
     first = key()
     (tmp_path / "elsewhere.py").write_text("x = 2\n")
     assert key() == first
+    part.write_text("x = 2\n")
+    others = {first, key()}
     beside.write_text("UNIT = 2\n")
     second = key()
     file.write_text(f"from constants import UNIT\n{example}\n")
-    assert len({first, second, key()}) == 3
+    assert len(others | {second, key()}) == 4
     with pytest.raises(RuntimeError, match="changed since this run was requested"):
         task.solve(SCENE.document(), name, {}, digest=plugins.digest("lumped"))
 

@@ -1,7 +1,5 @@
 """Animation of sheets at true scale: frames with time and colour bar, as a GIF of 480 pixels below 1 MB."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

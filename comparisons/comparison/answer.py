@@ -1,7 +1,5 @@
 """The answer of `sheetbench compare`: document, tables, figures and files of a comparison."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property, partial

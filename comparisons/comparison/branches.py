@@ -11,8 +11,6 @@ path. If neither stays, this grid has no corresponding equilibrium, or the answe
 (`far_apart`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """A scene solved by a lattice, a reference, and further models."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from functools import partial

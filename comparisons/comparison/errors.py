@@ -4,8 +4,6 @@ Errors are None too if one of the models did not reach the full load, relative o
 reference moves by no more than round-off.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

@@ -4,8 +4,6 @@ The sheets are drawn at true scale unless their displacements are too small to s
 millimetres. Actuators and loads are drawn on both sheets (`comparisons.pictures.stage`).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -13,8 +13,6 @@ than half the reference's distance from its previous extremum. Several motions a
 extrema that all have. Differences are over the reference's largest component.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, Any
 

@@ -4,8 +4,6 @@ The reference is simulated again on two coarser meshes, and with steps of about 
 error bar (`comparisons.sweep.limits.motion_bar`).
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The answer of `sheetbench compare --duration`: measures of motions, their differences and costs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any

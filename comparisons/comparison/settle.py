@@ -8,8 +8,6 @@ equilibria. Inertia and the material's dampers then have no effect on the result
 take long steps.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial

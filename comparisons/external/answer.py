@@ -2,8 +2,6 @@
 and a search for the installed ones among the plug-ins.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext, suppress

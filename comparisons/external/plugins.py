@@ -14,8 +14,6 @@ model has `takes_any`. A ValueError raised by `solve` counts as bad input; a sol
 reports this in its Solution's status. docs/plugin.py is a short example.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 import sys

@@ -13,8 +13,6 @@ and a cell of area A has the mean of about A/R_cc. The covariance of their noise
 Source: Aster, Borchers and Thurber, Parameter Estimation and Inverse Problems (2013), chapters 4 and 10.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, Any
 

@@ -29,8 +29,6 @@ does not depend on the machine: FITTED and CHECKED unknowns take a second or two
 search, the next step is taken to be half the last.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from math import prod

@@ -7,8 +7,6 @@ motion from rest                derivatives along the run of a lattice without o
                                 cubic in time between samples
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial

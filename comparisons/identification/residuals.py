@@ -11,8 +11,6 @@ and the fit made again from where it was; it is named if it is then FAR times th
 off. Up to MOST rows are tried in turn, one in FEWEST at most.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import log

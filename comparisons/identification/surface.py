@@ -6,8 +6,6 @@ the normal there, so that sliding within the surface, or a point measured beyond
 nothing. The distance's derivative by a parameter is −n · ∂u/∂θ at the foot (envelope theorem). Metres.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 Nothing is solved. Implausible values (`scenes.meaning.plausibility`) are listed as complaints.
 """
 
-from __future__ import annotations
-
 import shlex
 from dataclasses import dataclass
 from functools import cached_property

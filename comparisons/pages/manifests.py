@@ -4,8 +4,6 @@ What a run was given and found, under "settings" and "scene", may be anything: i
 shows it.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Annotated, Any

@@ -4,8 +4,6 @@ Numbers go as little-endian bytes in base64, four a number: float32 keeps seven 
 micrometre on a metre, and takes half the room of decimals. Lengths are in metres, also of displacements.
 """
 
-from __future__ import annotations
-
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, partial

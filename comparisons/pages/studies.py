@@ -7,8 +7,6 @@ with their units and formats, the CSV file the values in SI units. Other CSV fil
 are listed among the files.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import shlex

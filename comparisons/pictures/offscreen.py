@@ -4,8 +4,6 @@ VTK draws through the system's EGL or OSMesa library. Without either it ends the
 fault, so a small image is drawn in a child process first, once per process.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

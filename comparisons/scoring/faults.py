@@ -8,8 +8,6 @@ Detected mistakes are corrected before the next test, so several at once are rep
     swap    two probes whose exchange reduces a large error to less than a quarter
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
 

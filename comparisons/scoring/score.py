@@ -8,8 +8,6 @@
 An answer within the reference's error bar is not distinguishable from the reference.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property

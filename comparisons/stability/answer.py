@@ -1,7 +1,5 @@
 """Ranges in which each model is accurate, largest stable steps, and all runs: the answer of `stability`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby

@@ -12,8 +12,6 @@ study against its finest mesh. Errors in motion are the largest difference from 
 with a fine step, over the largest displacement.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial

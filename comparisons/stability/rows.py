@@ -1,7 +1,5 @@
 """Rows of a stability map: a cell, the status of its run, its error."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Rows of the table of solves computed in this process, with their answers in memory."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from statistics import median

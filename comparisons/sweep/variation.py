@@ -4,8 +4,6 @@ Every variant is solved by every model, through a campaign's store; errors at th
 are against the reference on the variant (`comparisons.sweep.differences`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Models of a scene with errors and costs, at rest and in motion: the answers of `sheetbench tradeoff`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Annotated, Any

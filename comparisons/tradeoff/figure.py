@@ -1,7 +1,5 @@
 """The figure of a trade-off: error against time with the front, and against cell size or step."""
 
-from __future__ import annotations
-
 from itertools import cycle
 from typing import Any
 

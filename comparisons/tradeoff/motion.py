@@ -14,8 +14,6 @@ integrators take fractions of their stability limit instead. Plate, shell and so
 error.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Unpack

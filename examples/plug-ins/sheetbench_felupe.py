@@ -8,8 +8,6 @@ without which thin sheets lock.
 Everything of a scene but chains and edge moments. Needs FElupe.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import metadata

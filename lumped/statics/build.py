@@ -1,7 +1,5 @@
 """Construction of a scene's lattice under its supports and loads."""
 
-from __future__ import annotations
-
 from functools import partial
 
 from lumped.actuators import Coupling

@@ -10,8 +10,6 @@ nothing beside the energy that the descent has released. Only for dead loads and
 no energy.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 

@@ -7,8 +7,6 @@ compiled call takes a step and computes the internal forces and the extrapolated
 state contains its residual. Displacements and forces are (n, 3) [m], [N].
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import NamedTuple

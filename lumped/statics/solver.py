@@ -1,7 +1,5 @@
 """Static solutions of a scene on a lattice of calibrated springs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache, partial
 from typing import Literal

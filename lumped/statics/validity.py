@@ -19,8 +19,6 @@ slender    masses of cells many times as long as wide, as strong grading makes t
 Each is reported with the place on the sheet where it is worst and a change that helps.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 

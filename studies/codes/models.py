@@ -5,8 +5,6 @@ are kept in the set's own file, for `score` to compare answers with. The rows of
 installed stay.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 

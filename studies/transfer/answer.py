@@ -1,7 +1,5 @@
 """Answer of the transfer study: its rows by part, and their tables, methods across and scenes down."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any

@@ -13,8 +13,6 @@ a lattice that is not calibrated for its grid is another plate on every grid. A 
 moduli on a grid is compared with the error on that grid; 33 masses a side may be far from cells → 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Any, Unpack
 

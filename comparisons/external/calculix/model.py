@@ -14,8 +14,6 @@ Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC
 *TRANSFORM, *NODE PRINT, *ELASTIC, *ORIENTATION.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Iterable, Mapping

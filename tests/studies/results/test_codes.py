@@ -1,7 +1,5 @@
 """Codes: files of results as pull requests bring them, trials that go on where they stopped, ladders."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

@@ -13,11 +13,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.calibration import Calibration, default
-from lumped.carried import pairs_of, rotary_masses
 from lumped.gradient import Equilibrium
 from lumped.masses import Inertia, mass_matrix
 from lumped.mid_surface import MidSurface
 from lumped.mode_sensitivity import ModeGradient
+from lumped.payloads import pairs_of, rotary_masses
 from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
 from lumped.statics.solver import stable_equilibrium

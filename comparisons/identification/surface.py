@@ -13,7 +13,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.spatial import KDTree
 
 ITERATIONS = 30
-CLOSE = 1e-10  # of the sheet's longer side: a step of the foot that ends the search
+FOOT_TOLERANCE = 1e-10  # of the sheet's longer side: a step of the foot that ends the search
 
 
 def plan_grid(lengths: tuple[float, float], counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
@@ -65,7 +65,7 @@ def feet(axes: tuple[np.ndarray, np.ndarray], displacement: Field, cloud: np.nda
         updated = np.clip(plan + step, 0.0, lengths)
         change = np.abs(updated - plan).max()
         plan = updated
-        if change < CLOSE * lengths.max():
+        if change < FOOT_TOLERANCE * lengths.max():
             break
     tangents = _evaluate_tangents(plan, displacement)
     normals = np.cross(tangents[:, :, 0], tangents[:, :, 1])

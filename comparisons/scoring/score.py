@@ -26,7 +26,7 @@ from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, PERCENT, Table, number
 from sheetbench.choices import REFERENCES
 
-OWN = "answers"
+ANSWERS = "answers"
 OWN_MODELS = ("lumped", *REFERENCES)
 SIZES = ("grid", "elements")
 ORIGINS = YOURS, OURS, OTHERS = "yours", "ours", "other program"
@@ -105,7 +105,7 @@ class Score(ShownAnswer):
         times = [answer.seconds for answer in self.answers if answer.seconds]
         seconds = _geometric(times) if len(times) == len(self.answers) else None
         others = other_models([answer.reference for answer in self.answers])
-        return sorted([Place(OWN, self.score, seconds, YOURS), *others], key=lambda place: place.score)
+        return sorted([Place(ANSWERS, self.score, seconds, YOURS), *others], key=lambda place: place.score)
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench score`."""
@@ -159,7 +159,7 @@ class Score(ShownAnswer):
         if self.unanswered:
             notes.append(f"not answered yet: {', '.join(self.unanswered)}")
         if len(self.leaderboard) > 1:
-            if any(place.seconds is not None for place in self.leaderboard if place.model != OWN):
+            if any(place.seconds is not None for place in self.leaderboard if place.model != ANSWERS):
                 machine = document()["made_with"]["machine"].get("processor", "another machine")
                 notes.append(f"times of the others are geometric means, measured on {machine}")
             notes.append(self.place)
@@ -169,8 +169,8 @@ class Score(ShownAnswer):
     def place(self) -> str:
         """Rank among other models by score, and the model of the nearest score, in words."""
         ranked = self.leaderboard
-        rank = [place.model for place in ranked].index(OWN) + 1
-        others = [place for place in ranked if place.model != OWN]
+        rank = [place.model for place in ranked].index(ANSWERS) + 1
+        others = [place for place in ranked if place.model != ANSWERS]
         nearest = min(others, key=lambda place: abs(np.log(max(place.score, 1e-12) / max(self.score, 1e-12))))
         return (
             f"you rank {rank} of {len(ranked)}; nearest neighbour {nearest.model}, "

@@ -24,7 +24,7 @@ ROUNDED = 1e-9  # relative difference of slopes before and after a moment that c
 
 
 @dataclass(frozen=True)
-class Driven:
+class PrescribedEdge:
     """Nodes (k,) of a bent, tilted or moved edge, and their plan positions (k, 2) [m]. part: share of the
     force on each node that belongs to the edge (k,)."""
 
@@ -44,8 +44,8 @@ class Supports:
     edges: dict[str, np.ndarray]
     director: np.ndarray
     tilt: np.ndarray
-    turning: tuple[Driven, ...]
-    moved: dict[str, Driven]
+    turning: tuple[PrescribedEdge, ...]
+    moved: dict[str, PrescribedEdge]
     shifts: dict[str, PiecewiseCurve]
 
     @cached_property
@@ -54,7 +54,7 @@ class Supports:
         return sum(self.edges.values(), np.zeros((len(self.director), 3), dtype=bool))
 
     @property
-    def driven(self) -> tuple[Driven, ...]:
+    def driven(self) -> tuple[PrescribedEdge, ...]:
         """All edges with prescribed places; at a common corner the last one counts."""
         return (*self.turning, *self.moved.values())
 
@@ -137,9 +137,9 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
         edges[motion.held_as] = np.zeros((len(nodes), 3), dtype=bool)
         edges[motion.held_as][on_edge[motion.edge]] = True
 
-    def driven(edge: DrivenEdge) -> Driven:
+    def driven(edge: DrivenEdge) -> PrescribedEdge:
         on = on_edge[edge.edge]
-        return Driven(on, nodes[on], edge, 1.0 / np.maximum(movers[on], 1.0))
+        return PrescribedEdge(on, nodes[on], edge, 1.0 / np.maximum(movers[on], 1.0))
 
     turning = tuple(driven(edge) for edge in bent_or_tilted(scene.supports, scene.sheet))
     moved = {name: driven(MovedEdge(motion, scene.sheet)) for name, motion in motions.items()}

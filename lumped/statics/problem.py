@@ -153,7 +153,7 @@ class Problem(Structure[LatticeState, Residual]):
     def _prescribed(self, load_factor: float) -> np.ndarray:
         g = self.constraints.prescribed(load_factor)
         if self.assembly.coupling is not None:
-            g = g + self.assembly.coupling.driven(Drive(load_factor))
+            g = g + self.assembly.coupling.prescribed_displacement(Drive(load_factor))
         return g
 
     def project_to_supports(self, u: np.ndarray, load_factor: float) -> np.ndarray:

@@ -8,7 +8,7 @@ from comparisons.cli import console
 from comparisons.cli.options import Kind, Models
 from comparisons.cli.output import PictureOptions
 from studies.codes.answer import codes
-from studies.codes.models import LADDERS, climb, stand
+from studies.codes.models import LADDERS, measure_models, measure_sizes
 from studies.codes.trials import run_trials
 
 
@@ -40,7 +40,7 @@ def command(
             name, _, python = text.partition("=")
             run_trials(name, python, seconds, budget, console.tell)
         for name in ladder or ():
-            climb(name, console.tell)
+            measure_sizes(name, console.tell)
         if standing or model:
-            stand(model or (), console.tell, suite)
+            measure_models(model or (), console.tell, suite)
         return out.show(codes())

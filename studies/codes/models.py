@@ -20,7 +20,7 @@ from studies.codes.results import CASES, SCENES, Trial, write_results
 REPEATS = 3
 
 
-class Ladder(NamedTuple):
+class Sizes(NamedTuple):
     """A program's models by size."""
 
     title: str
@@ -29,16 +29,16 @@ class Ladder(NamedTuple):
 
 
 LADDERS = {
-    "lattice": Ladder("sheetbench, lattice", "MIT", tuple(Lattice(n) for n in (3, 5, 9, 17, 33))),
-    "oblique": Ladder(
+    "lattice": Sizes("sheetbench, lattice", "MIT", tuple(Lattice(n) for n in (3, 5, 9, 17, 33))),
+    "oblique": Sizes(
         "sheetbench, lattice with oblique shear",
         "MIT",
         tuple(Lattice(n, "consistent-oblique") for n in (5, 9, 17)),
     ),
-    "shell": Ladder("sheetbench, shell", "MIT", tuple(Elements("shell", n) for n in (4, 8, 12, 16))),
-    "solid": Ladder("sheetbench, solid", "MIT", tuple(Elements("solid", n) for n in (4, 8))),
+    "shell": Sizes("sheetbench, shell", "MIT", tuple(Elements("shell", n) for n in (4, 8, 12, 16))),
+    "solid": Sizes("sheetbench, solid", "MIT", tuple(Elements("solid", n) for n in (4, 8))),
     **{
-        code: Ladder(title, licence, tuple(External(code, {"elements": n}) for n in sizes))
+        code: Sizes(title, licence, tuple(External(code, {"elements": n}) for n in sizes))
         for code, title, licence, sizes in (
             ("kratos", "Kratos, thin shell", "BSD-4-Clause", (8, 16, 32)),
             ("calculix", "CalculiX, 20-node bricks", "GPL-2.0", (4, 6, 8, 12)),
@@ -75,7 +75,7 @@ def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     }
 
 
-def climb(code: str, say: Callable[[str], None]) -> None:
+def measure_sizes(code: str, say: Callable[[str], None]) -> None:
     """Measure a ladder of sizes on test 1, and write its file of results."""
     ladder, rows = LADDERS[code], []
     for candidate in ladder.models:
@@ -89,7 +89,7 @@ def climb(code: str, say: Callable[[str], None]) -> None:
     write_results(code, ladder.title, ladder.licence, rows, f"--ladder {code}")
 
 
-def stand(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:
+def measure_models(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:
     """Measure models by name on a suite, and put the rows into the set's file; rows of other suites stay.
     Raises BadInput for an unknown model."""
     candidates = {str(candidate): candidate for candidate in (*STANDING, *SLOW)}

@@ -170,7 +170,7 @@ class Springs:
         return replace(self, of={name: tuple(self[name] * by) for name, by in times.items()})
 
     def less(self, other: Springs) -> Springs:
-        """Return the differences from springs of equal directions, with the stretches r of edges as here."""
+        """Return the differences from springs of equal directions, with this set's stretches r of edges."""
         changing = (name for name in self.of if not name.endswith("edge_coupling"))
         pairs = {name: zip(self.of[name], other.of[name], strict=True) for name in changing}
         return replace(self, of=self.of | {name: tuple(a - b for a, b in of) for name, of in pairs.items()})

@@ -224,7 +224,7 @@ def other_models(cases: Sequence[Reference]) -> list[Place]:
     rows: dict[str, dict[str, dict[str, Any]]] = {}
     names = {case.name for case in cases}
     stored = [row for row in document()["standing"] if row["case"] in names]
-    for row in stored or [row for case in cases for row in _judge_rows(case)]:
+    for row in stored or [row for case in cases for row in _model_rows(case)]:
         rows.setdefault(str(spec_of(row["model"], row["settings"])), {})[row["case"]] = row
     places = []
     for name, of_model in rows.items():
@@ -238,7 +238,7 @@ def other_models(cases: Sequence[Reference]) -> list[Place]:
     return places
 
 
-def _judge_rows(case: Reference) -> list[dict[str, Any]]:
+def _model_rows(case: Reference) -> list[dict[str, Any]]:
     """Return rows of other models that solved a case when the set was made; their times are not stored."""
     return [
         {**row, "case": case.name, "seconds": None, "settings": {k: row[k] for k in SIZES if k in row}}

@@ -49,7 +49,7 @@ class Sampled(NamedTuple):
 
 
 class ConstrainedAlpha(MotionMethod[SheetMotion]):
-    """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
+    """Generalised-α steps. step [s]: fixed, or None for one by the error; first: the first one tried.
     adapts, span, kinks: of `sheetbench.numerics.time.method`. Steps end at samples of a sheet with chains:
     their firm stiffnesses make much energy of the small strains that a cubic within a step leaves."""
 

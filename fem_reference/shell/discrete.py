@@ -212,7 +212,7 @@ class DiscreteShell(DiscreteElements):
         return np.append(np.zeros((self.nodes, 3)), turns)
 
     def of_supports(self, exerted: np.ndarray) -> np.ndarray:
-        """Return M ü + g at held coordinates, without the forces that keep free directors unit vectors."""
+        """Return the supports' forces M ü + g, without forces that keep free directors unit vectors."""
         return np.where(self._held.ravel(), exerted, 0.0)
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:

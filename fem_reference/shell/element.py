@@ -96,7 +96,7 @@ OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their 
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]. parts:
+    """Shell elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]. parts:
     slices of the strains by kind."""
 
     reference: np.ndarray

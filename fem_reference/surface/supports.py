@@ -1,4 +1,4 @@
-"""Held positions and directors of supports and moved edges, by the load factor or time.
+"""Positions and directors held by supports and moved edges, by the load factor or time.
 
 The position φ = X + u and the director d of every node may be held. `scenes.meaning.kinematics` gives their
 values at a bent rod, a tilted clamp or a motion; statics take the last pose of a motion and the last sample
@@ -36,10 +36,10 @@ class PrescribedEdge:
 
 @dataclass(frozen=True)
 class Supports:
-    """Held components: edges: name → components of the position (n, 3); director (n,). tilt: (n, 2), whether
-    the director's component along x or y is held at 0, as on a plane of symmetry; turning: held edges that
-    are bent or tilted; moved: moved edges, by the actuators' names; shifts: the courses of the supports that
-    move (`scenes.supports.Motion`), by name."""
+    """Components held by supports. edges: name → components of the position (n, 3); director (n,). tilt: (n,
+    2), whether the director's component along x or y is held at 0, as on a plane of symmetry; turning: held
+    edges that are bent or tilted; moved: moved edges, by the actuators' names; shifts: the courses of the
+    supports that move (`scenes.supports.Motion`), by name."""
 
     edges: dict[str, np.ndarray]
     director: np.ndarray

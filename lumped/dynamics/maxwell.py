@@ -23,9 +23,9 @@ from sheetbench.scenes.objects.relaxation import BranchStep
 
 
 class Maxwell:
-    """The branches of all springs, in the step or stage `now`; with the instantaneous modulus before the
-    first. A state's memory holds the springs' measures one after the other. Immutable: `step` and `stage`
-    return new objects."""
+    """Maxwell branches of all springs in the step or stage `now`; before the first, springs of the
+    instantaneous modulus. A state's memory holds the springs' measures one after the other. Immutable: `step`
+    and `stage` return new objects."""
 
     def __init__(self, families: Sequence[Family], branches: Branches):
         if any(isinstance(family, DirectionalLinks) for family in families):

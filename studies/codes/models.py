@@ -28,7 +28,7 @@ class Sizes(NamedTuple):
     models: tuple[Spec, ...]
 
 
-LADDERS = {
+SIZES = {
     "lattice": Sizes("sheetbench, lattice", "MIT", tuple(Lattice(n) for n in (3, 5, 9, 17, 33))),
     "oblique": Sizes(
         "sheetbench, lattice with oblique shear",
@@ -76,17 +76,17 @@ def row(case: Reference, candidate: Spec) -> dict[str, Any]:
 
 
 def measure_sizes(code: str, say: Callable[[str], None]) -> None:
-    """Measure a ladder of sizes on test 1, and write its file of results."""
-    ladder, rows = LADDERS[code], []
-    for candidate in ladder.models:
+    """Measure a program's models by size on test 1, and write its file of results."""
+    sizes, rows = SIZES[code], []
+    for candidate in sizes.models:
         size = next(value for key, value in candidate.settings.items() if key in ("grid", "elements"))
         recipe = f"{size} × {size}" if isinstance(size, int) else " × ".join(map(str, size[:2]))
         result = row(CASES[SCENES[0]], candidate)
-        say(f"{ladder.title}, {recipe}: {result['status']}, {result['error']}")
+        say(f"{sizes.title}, {recipe}: {result['status']}, {result['error']}")
         rows.append(
             Trial(SCENES[0], recipe, candidate.model, *(result[k] for k in ("status", "error", "seconds")))
         )
-    write_results(code, ladder.title, ladder.licence, rows, f"--ladder {code}")
+    write_results(code, sizes.title, sizes.licence, rows, f"--ladder {code}")
 
 
 def measure_models(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:

@@ -127,8 +127,8 @@ def trace_with_penalties(
 
 
 def touched(path: Path[State, Forces]) -> tuple[float, float]:
-    """Return the area in contact [m²], and the share that contacts bear of the forces in balance, which
-    stresses at rest may be most of."""
+    """Return the area in contact [m²], and the contacts' share of the forces in balance, most of which may
+    be stresses at rest."""
     at, size = path.structure.configuration(path.state, 1.0), path.structure.forces(path.state, 1.0).size
     states = [one.report(at)[0] for one in path.structure.contacts]
     borne = sum(one.area * one.pressure for one in states)

@@ -47,7 +47,7 @@ def test_stored_rows_have_the_published_numbers():
 
 def test_a_ladder_is_measured_against_the_reference_set(tmp_path, monkeypatch):
     monkeypatch.setattr(results, "RESULTS", tmp_path)
-    monkeypatch.setitem(models.LADDERS, "lattice", models.Sizes("lattice", "MIT", (Lattice(3), Lattice(5))))
+    monkeypatch.setitem(models.SIZES, "lattice", models.Sizes("lattice", "MIT", (Lattice(3), Lattice(5))))
     models.measure_sizes("lattice", lambda _: None)
     rows = read_results(tmp_path / "lattice.json").rows
     assert [row.recipe for row in rows] == ["3 × 3", "5 × 5"]

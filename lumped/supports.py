@@ -10,14 +10,12 @@ symmetric  the component across the edge held, in every layer
 The places of bent and tilted edges at a load factor λ are defined by the scene (`scenes.meaning.kinematics`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import scipy.sparse as sp
@@ -54,11 +52,11 @@ class Constraints:
     coupling: Coupling | None = None
     _reduced: dict[tuple[MassPattern, bool], ReducedSystem] = field(default_factory=dict)
 
-    def on(self, lattice: Lattice) -> Constraints:
+    def on(self, lattice: Lattice) -> Self:
         """Return the constraints for a lattice with an equal plan."""
         return self if lattice is self.lattice else self.with_shared_arrays(lattice=lattice)
 
-    def with_shared_arrays(self, **parts: Any) -> Constraints:
+    def with_shared_arrays(self, **parts: Any) -> Self:
         """Return constraints with an equal transform, whose arrays are shared."""
         arrays, other = self.transform_arrays, copy(self)
         vars(other).update(parts, transform_arrays=arrays)

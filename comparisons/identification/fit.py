@@ -14,12 +14,10 @@ the unknowns by Halton's sequence, and the best fit is kept. A start that reache
 the first part of the record is dropped.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import log
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -145,7 +143,7 @@ class Fit:
     def search(
         self,
         start: np.ndarray,
-        check: Callable[[Fit, Prediction], None] | None = None,
+        check: Callable[[Self, Prediction], None] | None = None,
         smallest: float = SMALLEST,
         evaluations: int = EVALUATIONS,
         pull: float = PULL,

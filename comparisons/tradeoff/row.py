@@ -1,10 +1,8 @@
 """Rows of a trade-off, at rest and in motion: a model, its status, cost and errors."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -130,7 +128,7 @@ class MotionRow(TradeoffRow):
     damping_error: float | None = None
 
     @classmethod
-    def of(cls, solved: Solved, truth: Solved, fine: Solved | None = None) -> MotionRow:
+    def of(cls, solved: Solved, truth: Solved, fine: Solved | None = None) -> Self:
         """Return the row of a run; truth: of the reference; fine: of the lattice with fine steps."""
         history, reference = solved.history, truth.history
         if history is None or reference is None:

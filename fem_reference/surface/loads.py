@@ -12,10 +12,8 @@ L runs along ν × e_z, ν the outward normal, so that m > 0 turns the edge towa
 the virtual work of a moment m t̂ on δd = δθ × d is δd · (m t̂ × d). Units: N, N/m, N·m/m, Pa, m.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -75,7 +73,7 @@ class Line:
     speed: np.ndarray
 
     @classmethod
-    def along(cls, plan: Plan, facets: np.ndarray, elements: np.ndarray | None = None) -> Line:
+    def along(cls, plan: Plan, facets: np.ndarray, elements: np.ndarray | None = None) -> Self:
         """Return the sides at `facets` (k,) of a plan's mesh, of given elements (k,) or of any."""
         mesh = plan.mesh
         elements = mesh.f2t[0, facets] if elements is None else elements

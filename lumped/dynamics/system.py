@@ -7,12 +7,11 @@ T and g come from supports and bindings, with Tᵀ M g = const: whole columns mo
 M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 import scipy.sparse as sp
@@ -245,13 +244,13 @@ class System:
             item.add_resistance_tangent((u, self.drive(time)), v, damping, blocks)
         return blocks
 
-    def for_step(self, state: State, ahead: float = 0.0) -> System:
+    def for_step(self, state: State, ahead: float = 0.0) -> Self:
         """Return the equations with the branches of a step of second order, `ahead` [s] after a state."""
         if self.maxwell is None or state.memory is None:
             return self
         return self.with_branches(self.maxwell.step(state.memory, ahead))
 
-    def with_branches(self, maxwell: Maxwell) -> System:
+    def with_branches(self, maxwell: Maxwell) -> Self:
         """Return the equations with the branches in a step or stage."""
         other = copy(self)
         other.maxwell = maxwell

@@ -13,8 +13,6 @@ displacement and a rotation vector as unknowns. A clamp holds all six components
 SI.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,7 +20,7 @@ from functools import cached_property
 from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -55,7 +53,7 @@ class Triangles:
     counts: tuple[int, int]
 
     @classmethod
-    def of(cls, sheet: Sheet, elements: int) -> Triangles:
+    def of(cls, sheet: Sheet, elements: int) -> Self:
         """Mesh a sheet with near-square cells of one size; elements: cells along the shorter side."""
         counts = near_square(sheet, elements)
         return cls(rectangle(sheet, counts), counts)

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.gradient import FIELD, FORCES
+from lumped.cell_fields import YOUNG
+from lumped.gradient import FORCES
 from lumped.parameter_sides import Calibrate
 from lumped.sensitivity import Differentiable
 from lumped.springs import all_families
@@ -38,7 +39,6 @@ TOLERANCE = 1e-11  # of a residual, relative to the loads
 STEPS = 30
 PART = 64  # designs that a thread takes at a time
 NEAR = 1e-3  # of the loads, the residual from which on a design has a tangent of its own
-YOUNG = FIELD + "young"
 
 
 @dataclass(frozen=True)

@@ -173,7 +173,7 @@ def _frequency_gradient(
         return _masses(problem, shared, springs)[2]
 
     of, mode = Equilibrium.of(scene, calibration, u), vectors[:, number - 1]
-    mode = mode / np.sqrt(mode @ (inertia(of.plain, calibration) @ mode))
+    mode = mode / np.sqrt(mode @ (inertia(of.problem, calibration) @ mode))
     return ModeGradient(of, mode, float(squares[number - 1]), loaded, inertia)
 
 

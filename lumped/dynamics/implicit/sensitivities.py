@@ -28,7 +28,6 @@ from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.parameter_sides import both_sides
-from lumped.statics.build import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, StepFailed
 from sheetbench.scenes import Scene
@@ -55,9 +54,8 @@ class Sided:
     """A parameter's two systems, half the difference of their states, and the memories of their branches."""
 
     def __init__(self, scene: Scene, calibration: Calibration, weights: Weights, name: str):
-        problem = build_problem(scene, calibration, weights)
-        (((low, high), over),) = both_sides(calibration, problem, [name], share=STEP)
-        made = [in_motion(side.scene, springs, weights) for side, springs in (high, low)]
+        ((ends, over),) = both_sides(scene, calibration, [name], share=STEP)
+        made = [in_motion(*end, weights) for end in reversed(ends)]
         self.systems, states = zip(*made, strict=True)
         places = [system.problem.prescribed(1.0) for system in self.systems]
         if self.systems[0].items or not np.array_equal(*places):

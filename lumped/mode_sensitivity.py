@@ -16,10 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from lumped.calibration import Calibration
 from lumped.cell_fields import DENSITY, FIELD, THICKNESS
 from lumped.gradient import FORCES, Equilibrium, Gradient
-from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 
@@ -32,12 +30,7 @@ class ModeGradient(Mapping[str, Any]):
     about its shape under load, which changes too; inertia: makes Tᵀ M T (m, m) of a problem with springs."""
 
     def __init__(
-        self,
-        of: Equilibrium,
-        mode: np.ndarray,
-        squared: float,
-        loaded: bool,
-        inertia: Callable[[Problem, Calibration], Any],
+        self, of: Equilibrium, mode: np.ndarray, squared: float, loaded: bool, inertia: Callable[..., Any]
     ):
         problem, u, shape, none = of.problem, of.u, of.problem.expand(mode), np.zeros_like(of.u)
         step = SMALL * problem.scene.sheet.thickness / np.abs(shape).max()

@@ -54,10 +54,7 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
 
 
 def powers(
-    lattice: Lattice,
-    families: Sequence[Family],
-    state: Sequence[np.ndarray],
-    by: Sequence[np.ndarray],
+    lattice: Lattice, families: Sequence[Family], state: Sequence[np.ndarray], by: Sequence[np.ndarray]
 ) -> np.ndarray:
     """Return the derivatives of a power by the cells' natural strain and curvature, xx, yy and xy, (rows,
     columns, 6). families: of a flat sheet; state: both, (rows, columns, 2, 2); by: the derivatives by every

@@ -186,28 +186,23 @@ class SheetSensitivity:
         """Return ∂R/∂θ (N,) and ∂δ/∂θ (N,) between two scenes that differ by `over`. weight: whether with
         loads and the weight of the sheet. with_constants: whether with the elements' constants, too."""
         sheet, shape, placed = self.sheet, self.shape, np.zeros(self.sheet.size)
-        sides = [sheet.with_scene(end) for end in ends]
+        low, high = (sheet.with_scene(end) for end in ends)
         forces = []
-        for side in sides:
+        moved = shape.change if with_constants else np.zeros_like(shape.change)  # or the natural strain alone
+        for side in (low, high):
             element = side.elements_of(None, side.law)[0] if with_constants else sheet.element
-            strain = side.strain(shape.change, shape.at) if with_constants else self._unstrained(side)
-            force = sheet.scatter(element.forces(shape.operator, element.stress(strain)))
+            stress = element.stress(side.strain(moved, shape.at))
+            force = sheet.scatter(element.forces(shape.operator, stress))
             for body in side.bodies:
                 force += body.scatter(body.pull(shape.q, body.stress(shape)))
                 force -= sum(body.scatter(dead) for dead, _ in side.weights) * (not weight)
-            items = [one for one in side.items if weight and not isinstance(one, Touching)]
+            items = (one for one in side.items if weight and not isinstance(one, Touching))
             forces.append(force - sum(one.force(shape) for one in items))
-        low, high = sides
         rate = (forces[1] - forces[0]) / over
         for one, before, after in zip(sheet.contacts, low.contacts, high.contacts, strict=True):
             rate -= one.rate(shape, before, after, over)
         placed[: 6 * sheet.nodes] = ((high.change(shape.at) - low.change(shape.at)) / over).ravel()
         return rate, placed
-
-    def _unstrained(self, side: DiscreteShell) -> np.ndarray:
-        """Return the negative natural strains of a sheet."""
-        none = np.zeros_like(self.shape.strain)
-        return none if side.natural is None else none - side.natural.at(self.shape.at)
 
     def product(self, move: np.ndarray, transposed: bool = False) -> np.ndarray:
         """Return K δq (N,), or of the transpose, of δq (N,)."""

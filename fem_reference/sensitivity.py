@@ -55,22 +55,18 @@ class SheetSensitivity:
         self.centres = sheet.plan.nodes[sheet.plan.elements[:, 8]]
 
     @cached_property
-    def matrix(self) -> Any:
-        """Zᵀ K Z."""
-        return self.sheet.tangent(self.shape, self.sheet.forces(self.shape), 0.0, 0.0)
-
-    @cached_property
     def factor(self) -> Factor:
         """Factors of Zᵀ K Z. Raises NoEquilibrium where it is singular or, of dead loads, not stable."""
-        return self._factor(self.matrix)
+        return self._factor()
 
     @cached_property
     def _transposed(self) -> Factor:
-        return self.factor if self.sheet.symmetric else self._factor(self.matrix.T.tocsr())
+        return self.factor if self.sheet.symmetric else self._factor(transposed=True)
 
-    def _factor(self, matrix: Any) -> Factor:
+    def _factor(self, transposed: bool = False) -> Factor:
+        matrix = self.sheet.tangent(self.shape, self.sheet.forces(self.shape), 0.0, 0.0)
         try:
-            found = self.sheet.solver().factor(matrix)
+            found = self.sheet.solver().factor(matrix.T.tocsr() if transposed else matrix)
         except SingularMatrixError as error:
             raise NoEquilibrium(f"{self.sheet.model}: no derivatives, a singular tangent: {error}") from None
         if found.negative > 0 or found.zero > 0:

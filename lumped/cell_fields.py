@@ -199,25 +199,29 @@ class CellFields:
         """Return the changes of springs `by_cells` with a field, and of the field; of ν and h together."""
         values = {one: values[one] for one in values.keys() & {*OF_SECTION, STRAIN}}
         kept = {} if values else self._kept
+        if name == YOUNG and name not in kept:  # which all constants are in proportion to, but for a limit
+            of = {one: parts for one, parts in self.springs(values)[0].of.items() if one != "gent_limit"}
+            kept[name] = self.by_cells(Springs(of), assembly, values), self.value(name, values)
         if name not in kept:
-            names = (POISSON, THICKNESS) if self.isotropic and name != YOUNG else (name,)
+            names = (POISSON, THICKNESS) if self.isotropic else (name,)
             base = {one: self.value(one, values) for one in names}
             steps = {one: STEP * np.maximum(np.abs(of), 0.1 * (one == POISSON)) for one, of in base.items()}
             ends = ({**values, one: base[one] + by * steps[one]} for one in names for by in (1.0, -1.0))
-            springs = iter(self.springs(*ends))
+            found = iter([self.by_cells(springs, assembly, values) for springs in self.springs(*ends)])
             for one, step in steps.items():
-                over = np.where(step > 0.0, 2.0 * step, 1.0)
-                kept[one] = self.by_cells(next(springs), assembly, values, next(springs)), over
-        return kept[name]
+                pairs = zip(next(found), next(found), strict=True)
+                kept[one] = [(cells, high - low) for (cells, high), (_, low) in pairs], 2.0 * step
+        changes, over = kept[name]
+        return changes, np.where(over > 0.0, over, 1.0)
 
-    def by_cells(self, springs: Springs, assembly: Assembly, values: Values, below: Springs | None) -> Shares:
+    def by_cells(self, springs: Springs, assembly: Assembly, values: Values) -> Shares:
         """Return, for each kind of springs, the cells beside each, (q, m), and their shares (q, m, n) of its
-        constants, or of their differences from springs `below`."""
+        constants."""
         lattice, none = assembly.lattice, (np.empty((1, 0), int), np.empty((1, 0, 1)))
-        these, change = lattice.links_of(assembly.links.nodes), springs.less(below) if below else springs
-        found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, change)[:, these])]
+        these = lattice.links_of(assembly.links.nodes)
+        found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these])]
         kept = np.arange(lattice.cell_areas.size)[lattice.present_cells]
-        plain: list[Family] = [*cell_springs(lattice, assembly.pattern, change)]
+        plain: list[Family] = [*cell_springs(lattice, assembly.pattern, springs)]
         if (strain := self.value(STRAIN, values)).any():
             plain = grown(lattice, plain, strain[..., SYMMETRIC])
         for family, now in zip(assembly.springs[1:3], plain, strict=True):
@@ -226,8 +230,6 @@ class CellFields:
         if not len(assembly.springs[3]):
             return [*found, none]
         stored = faces_by_cells(lattice, springs)
-        if below is not None:
-            stored = stored - faces_by_cells(lattice, below)
         constants = np.zeros((*stored.shape, FACE.count))
         constants[..., -1] = stored / lattice.faces.at_rest.area**2
         return [*found, (lattice.faces.cells, constants)]

@@ -132,7 +132,7 @@ def _together(
     problem, assembly, band = sheet.problem, sheet.problem.assembly, sheet.problem.system.band
     base, forces = sheet.base[YOUNG].ravel(), np.broadcast_to(designs.get(FORCES, 0.0), out.shape)
     young = np.broadcast_to(np.reshape(designs.get(YOUNG, base), (-1, base.size)), (len(out), base.size))
-    of_cells = sheet.cells.by_cells(sheet.calibration.constants, assembly, {}, None)
+    of_cells = sheet.cells.by_cells(sheet.calibration.constants, assembly, {})
     assert band is not None
     of_start, _ = banded.factored(problem.tangent(start, 1.0), band)
     free, none = problem.constraints.transform_arrays, all_families.NO_STRESSES

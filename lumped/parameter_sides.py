@@ -1,9 +1,9 @@
-"""A lattice with a parameter of its scene a little below and above its value, for central differences.
+"""A scene and its springs with a parameter a little below and above its value, for central differences.
 
-Springs, supports and loads are made again where they follow from the parameter; the rest is shared with the
-given lattice. The residual is linear in every spring constant, and its difference is exact but for rounding;
-in the thickness, ν, a layer distance, a curvature or a tilt its relative error is of order 1e-8. A load at a
-line of the grid, where its shares have a kink, has the mean of both sides.
+Springs are calibrated again where they follow from the parameter. The residual is linear in every spring
+constant, and its difference is exact but for rounding; in the thickness, ν, a layer distance, a curvature or
+a tilt its relative error is of order 1e-8. A load at a line of the grid, where its shares have a kink, has
+the mean of both sides.
 """
 
 from __future__ import annotations
@@ -49,11 +49,10 @@ def both_sides(
 ) -> list[Sides]:
     """Return scene and springs a little below and above each of some parameters of one kind, and the distance
     between both; share: of its value, for steps by that share."""
-    constants, changes = calibration.constants, list[tuple[str, float]]()
-    of_springs = names[0] in (*constants.names(), "layer_distance")
+    known, changes = calibration.constants, list[tuple[str, float]]()
+    of_springs = names[0] in (*known.names(), "layer_distance")
     for name in map(short_name, names):
-        known = (constants.value(name), -np.inf, np.inf) if of_springs else parameter(scene, name)[2:]
-        value, low, high = known
+        value, low, high = (known.value(name), -np.inf, np.inf) if of_springs else parameter(scene, name)[2:]
         key = name.partition(".")[2] if name.startswith(PATCH) else name
         if scene.obstacles and key == "thickness":  # which moves the surface that presses in
             key = OBSTACLE

@@ -64,12 +64,6 @@ class Sided:
         high_state, low_state = (np.array([state.u, state.v, state.a]) for state in states)
         self.change: Change = 0.5 * (high_state - low_state)
 
-    def residual(self, systems: Sequence[System], at: Change, change: Change, time: float) -> np.ndarray:
-        """Return half the difference of both sides' residuals (n, 3) [N]."""
-        sides = zip(systems, (at + change, at - change), strict=True)
-        high, low = (one.momentum(a) - one.unbalanced(u, v, time) for one, (u, v, a) in sides)
-        return np.asarray(0.5 * (high - low))
-
 
 class SensitiveEsdirk(Esdirk):
     """`esdirk` with the derivatives by up to MOST parameters; found: times (k,) and derivatives (parameters,
@@ -133,7 +127,9 @@ class SensitiveEsdirk(Esdirk):
         for _ in range(CORRECTIONS):
             moved = change - base[0]
             whole = np.array([change, base[1] + c1 * moved, c1**2 * moved])
-            residual = self.system.problem.reduce(one.residual(inside, at, whole, time))
+            sides = zip(inside, (at + whole, at - whole), strict=True)
+            high, low = (of.momentum(a) - of.unbalanced(u, v, time) for of, (u, v, a) in sides)
+            residual = self.system.problem.reduce(0.5 * (high - low))
             if (correction := self._newton.correction(residual)) is None:
                 equation = StepEquation(step.in_stage(i), time, at[0], at[1], (c1**2, c1))
                 self._newton.renew(equation, at[0])

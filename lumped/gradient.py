@@ -30,7 +30,7 @@ import scipy.sparse as sp
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
-from lumped.cell_fields import FIELD, POISSON, STATE, CellFields, Values
+from lumped.cell_fields import CURVATURE, FIELD, POISSON, STATE, STRAIN, CellFields, Values
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.parameter_sides import Calibrate, both_sides
@@ -45,7 +45,7 @@ from sheetbench.scenes.meaning.parameters import names_of, short_name
 
 FORCES = "forces"
 TOGETHER = ("poisson", "thickness")
-FIELD_STEP = dict(zip(STATE, (1e-6, 1e-3), strict=True))  # 1 and 1/m; of others 1e-5 of the largest
+FIELD_STEP = {STRAIN: 1e-6, CURVATURE: 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
 ITS_OWN: Values = MappingProxyType({})
 Sides = tuple[list[tuple[Problem, Calibration]], float]
 

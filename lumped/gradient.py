@@ -51,9 +51,8 @@ Sides = tuple[list[tuple[Problem, Calibration]], float]
 
 
 class Base:
-    """A scene's lattice with the springs of a calibration, and what it becomes with other values: what its
-    equilibria share. calibrate: finds the springs of a changed scene; by default the calibration's method
-    without options."""
+    """A scene's lattice with the springs of a calibration, which equilibria with any values share. calibrate:
+    finds the springs of a changed scene; by default the calibration's method without options."""
 
     _last: ClassVar[tuple[Any, Base] | None] = None
 

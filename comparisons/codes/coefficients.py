@@ -147,17 +147,13 @@ def nearest(
     return fixed_values | {n: float(v * s) for n, v, s in zip(names, solution.x, sizes, strict=True)}
 
 
-def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
-    """Return the error in a scene of the finest mesh of a cell: the error of a shell with the cell's moduli.
+def limit_errors(scene: Scene, elements: int = 16) -> Callable[[Moduli], float]:
+    """Return a function of a cell's moduli: the error in a scene of the finest mesh of the cell, which is that
+    of a shell with these moduli. The sheet's own shell is solved once, here.
 
     elements: along the side of a square, as many in all on others. The shell takes large rotations, as the
-    meshes do. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, with
-    its own moduli or the cell's, has no stable equilibrium in the scene."""
-    return limit_errors(scene, elements)(moduli)
-
-
-def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
-    """Return a function of moduli, their `limit_error` in a scene, which is itself solved once."""
+    meshes do. Both raise NoEquilibrium where the sheet, with its own moduli or the cell's, has no stable
+    equilibrium in the scene, the function BadInput where bending and stretching are coupled."""
     lengths = scene.sheet.lengths
     cells = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
     points, solved = scene.probe_points(), count(1)

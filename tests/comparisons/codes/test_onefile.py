@@ -56,8 +56,8 @@ OWN = {
     "ball": (STRIP.replace(obstacles=(ROUND,)), {}),
     "bar": (STRIP.replace(obstacles=(BAR,)), {}),
 }
-LIKE = ("graded", "half", "uniform", "cut", "woven", "skew", "sheared", "bimetal", "yeoh", "gent")
-ALL = OWN | {name: SCENES[name] for name in (*LIKE, "mooney-rivlin")}
+LIKE = "graded half uniform cut woven skew sheared bimetal yeoh gent mooney-rivlin"
+ALL = OWN | {name: SCENES[name] for name in LIKE.split()}
 SIZE = '#include "sheet.h"\nextern const int SIZE; const int SIZE = sizeof(sheet);\n'
 
 

@@ -19,14 +19,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations, count
+from itertools import count
 
 import numpy as np
 from scipy.linalg import block_diag, null_space
 from scipy.optimize import brentq, least_squares, minimize_scalar
 
 import fem_reference
-from comparisons.codes.cell import Cell, Place, cell_of
+from comparisons.codes.cell import Cell, Place, cell_of, sides_of
 from comparisons.models.context import context
 from comparisons.sweep.differences import error
 from fem_reference.surface.materials import Section, section_of
@@ -246,12 +246,7 @@ def triangular_cell(name: str, spacing: float) -> Cell:
 
 def _join_corners(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Place, str], ...]:
     """Return springs "k" between every two corners of elements, each once."""
-    sides: dict[tuple[Place, Place], None] = {}
-    for element in elements:
-        for a, b in combinations(element, 2):
-            (first, i, j), (second, *to) = sorted((a, b))
-            sides[(first, 0, 0), (second, to[0] - i, to[1] - j)] = None
-    return tuple((a, b, "k") for a, b in sides)
+    return tuple((a, b, "k") for a, b in sides_of(elements))
 
 
 def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[str, float]:

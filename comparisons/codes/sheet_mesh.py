@@ -82,14 +82,10 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
         raise BadInput(f"{scene.name}: {reason}")
     counts = near_square(scene.sheet, squares)
     spacing = np.array(scene.sheet.lengths) / counts
-    rows_beyond = {edge: 0 for edge in EDGES} | {
-        s.edge: 1 for s in scene.supports if isinstance(s, Clamped) and s.edge
-    }
-    i, j = np.meshgrid(
-        np.arange(-rows_beyond["x0"], counts[0] + rows_beyond["x1"] + 1),
-        np.arange(-rows_beyond["y0"], counts[1] + rows_beyond["y1"] + 1),
-        indexing="ij",
-    )
+    clamped = {support.edge for support in scene.supports if isinstance(support, Clamped)}
+    sides = zip("xy", counts, strict=True)
+    lines = [np.arange(-(f"{axis}0" in clamped), n + 1 + (f"{axis}1" in clamped)) for axis, n in sides]
+    i, j = np.meshgrid(*lines, indexing="ij")
     number = np.arange(i.size).reshape(i.shape)
     odd = ((i + j)[:-1, :-1] % 2 == 1) & (pattern == ALTERNATE)
     triangles = np.array(list(cut_squares(number, odd)))

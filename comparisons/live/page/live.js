@@ -33,9 +33,6 @@
     return value.toFixed(Math.max(digits - 1 - size, 0)).replace("-", "−");
   }
 
-  // The same without them, as people type it.
-  const typed = (value) => String(Number(value.toPrecision(5))).replace("-", "−");
-
   // Units that may be typed, in SI.
   const SCALES = {
     Pa: { of: "pressure", si: 1 }, kPa: { of: "pressure", si: 1e3 }, MPa: { of: "pressure", si: 1e6 }, GPa: { of: "pressure", si: 1e9 },
@@ -81,7 +78,7 @@
       const [, digits, unit] = said.replace("−", "-").replace(",", ".").match(/^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(.*)$/i) ?? [];
       const factor = unit ? (this.unit in SCALES && SCALES[unit]?.of === SCALES[this.unit].of ? SCALES[unit].si : unit === this.unit ? 1 / this.factor : NaN) : 1 / this.factor;
       const value = Number(digits) * factor;
-      const shown = (number) => `${typed(number * this.factor)}${this.unit ? ` ${this.unit}` : ""}`;
+      const shown = (number) => `${Sheets.number(number * this.factor, 5)}${this.unit ? ` ${this.unit}` : ""}`;
       if (Number.isNaN(value)) {
         const hint = this.unit in SCALES ? `a number in ${this.unit}, or with another unit of ${SCALES[this.unit].of}` : "a number";
         return refuse(`${this.label}: “${said}” cannot be read; write ${hint}. It stays ${shown(this.value)}.`);
@@ -116,7 +113,7 @@
     }
 
     write() {
-      const text = typed(this.value * this.factor);
+      const text = Sheets.number(this.value * this.factor, 5);
       this.text.value = text;
       this.range.setAttribute("aria-valuetext", `${text} ${this.unit}`);
     }

@@ -12,9 +12,9 @@
   const sliders = new Map();
   const shown = {}; // the last answer of each model
   const given = {}; // its sheet, as the viewer takes it
-  const begun = new Map(); // when the question of a number was requested, by the event's own clock
   const latencies = []; // ms from the event to the lattice drawn
-  let panel, calibration, viewer;
+  const calibration = at("calibration");
+  let panel, viewer;
   let number = 0;
 
   window.live = { latencies, shown, asked: () => number };
@@ -129,34 +129,21 @@
     at("name").textContent = panel.name;
     at("title").textContent = panel.title;
     document.title = `${panel.name} · sheetbench live`;
+    let place = "sliders";
     for (const slider of panel.sliders) {
-      if (slider.name === "grid") choose();
-      sliders.set(slider.name, new Slider(slider, at("sliders")));
+      if (slider.name === "grid") place = "models"; // from here on
+      sliders.set(slider.name, new Slider(slider, at(place)));
     }
+    for (const name of Object.keys(panel.calibrations)) make("option", { value: name }, calibration).textContent = name;
+    calibration.value = panel.calibration;
     settle();
-    const row = (parent, name, kind) => {
-      const found = make("tr", {}, parent);
+    const row = (parent, name) => {
+      const found = make("tr", { "data-fact": name }, parent);
       make("th", { scope: "row" }, found).textContent = name;
       for (const model of ["lattice", "shell"]) make("td", { "data-model": model }, found).textContent = "–";
-      if (kind) found.dataset.fact = kind;
     };
-    for (const fact of FACTS) row(at("facts"), fact, fact);
-    for (const probe of Object.keys(panel.probes)) row(at("probes"), probe, probe);
-  }
-
-  function choose() {
-    const box = make("div", { class: "choice" }, at("sliders"));
-    make("label", { for: "calibration" }, box).textContent = "Calibration";
-    calibration = make("select", { id: "calibration" }, box);
-    for (const name of Object.keys(panel.calibrations)) {
-      make("option", { value: name }, calibration).textContent = name;
-    }
-    make("p", { id: "method", class: "pale" }, box);
-    calibration.value = panel.calibration;
-    calibration.addEventListener("change", (event) => {
-      settle();
-      ask(event.timeStamp);
-    });
+    for (const fact of FACTS) row(at("facts"), fact);
+    for (const probe of Object.keys(panel.probes)) row(at("probes"), probe);
   }
 
   // Sliders that the calibration has no use for.
@@ -168,19 +155,15 @@
     sliders.get("grid").enable(calibration.value !== "scene");
   }
 
-  function question() {
+  // since: when it was requested, by the event's own clock.
+  function ask(since) {
+    number += 1;
+    at("refused").textContent = "";
+    mark();
     const values = {};
     for (const [name, slider] of sliders) values[name] = slider.value;
     if (sliders.get("grading").range.disabled) values.grading = 0;
-    return { number, values, calibration: calibration.value };
-  }
-
-  function ask(since) {
-    number += 1;
-    begun.set(number, since);
-    at("refused").textContent = "";
-    mark();
-    lattices.ask(question());
+    lattices.ask({ number, values, calibration: calibration.value, since });
   }
 
   // ---- what is answered
@@ -215,8 +198,7 @@
     draw("lattice", message);
     tell("lattice", message);
     shells.ask(question);
-    const since = begun.get(message.number);
-    for (const old of begun.keys()) if (old <= message.number) begun.delete(old);
+    const { since } = question;
     if (since === undefined) return;
     message.since = since;
     requestAnimationFrame(() => {
@@ -271,7 +253,7 @@
 
   // ---- the conversation
 
-  async function post(what, question) {
+  async function post(what, { since, ...question }) {
     let answer;
     try {
       answer = await fetch(what, { method: "POST", body: JSON.stringify(question) });
@@ -311,6 +293,10 @@
   const lattices = new Model("lattice", lattice);
   const shells = new Model("shell", shell);
 
+  calibration.addEventListener("change", (event) => {
+    settle();
+    ask(event.timeStamp);
+  });
   at("reset").addEventListener("click", (event) => {
     for (const slider of sliders.values()) slider.put(slider.start);
     calibration.value = panel.calibration;
@@ -320,7 +306,6 @@
   at("panel").addEventListener("submit", (event) => event.preventDefault());
   fetch("panel").then((answer) => answer.json()).then((message) => {
     build(message);
-    ask(performance.now());
-    begun.clear(); // the first answer is of no drag
+    ask(); // the first answer is of no drag
   });
 })();

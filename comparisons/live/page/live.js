@@ -200,27 +200,21 @@
     shells.ask(question);
     const { since } = question;
     if (since === undefined) return;
-    message.since = since;
     requestAnimationFrame(() => {
       latencies.push(performance.now() - since);
       at("latency").textContent = `${figures(latencies.at(-1), 3)} ms`;
     });
   }
 
-  function shell(message) {
+  function shell(message, { since }) {
+    const { difference, error } = message;
     shown.shell = message;
     draw("shell", message);
-    if (fits(message.difference)) viewer.update("lattice", { values: { difference: message.difference } });
+    const known = given.lattice.fields.at(-1).values; // of a newer lattice perhaps, with other masses
+    if (known.float32.length === difference.float32.length) viewer.update("lattice", { values: { difference } });
     tell("shell", message);
-    const { since } = shown.lattice.number === message.number ? shown.lattice : {};
     if (since !== undefined) requestAnimationFrame(() => (message.after = performance.now() - since));
-    const { error } = message;
     at("error").textContent = error === null ? "–" : `${figures(100 * error, error < 0.1 ? 2 : 3)} %`;
-  }
-
-  // Whether the lattice on the stage still has the masses that these values are of.
-  function fits(values) {
-    return given.lattice.fields.at(-1).values.float32.length === values.float32.length;
   }
 
   function tell(model, message) {
@@ -247,7 +241,6 @@
     for (const model of ["lattice", "shell"]) {
       const behind = shown[model]?.number !== number;
       for (const one of document.querySelectorAll(`[data-model="${model}"]`)) one.classList.toggle("behind", behind);
-      if (model === "shell") at("headline").classList.toggle("behind", behind);
     }
   }
 

@@ -63,6 +63,7 @@ SIZE = '#include "sheet.h"\nextern const int SIZE; const int SIZE = sizeof(sheet
 
 def compile_with(command, folder, texts, *words):
     """Write a program's files and compile them, warnings as errors."""
+    folder.mkdir(exist_ok=True)
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     subprocess.run([*command, *STRICT, *words], cwd=folder, check=True)
@@ -89,6 +90,11 @@ class Sheet:
         """Return probes, forces and energies, as a row of check.csv has them behind its time."""
         return np.array([self.call("get", n) for n in range(len(self.found.outputs))])
 
+    def after(self, steps):
+        """Take so many steps; return the row then."""
+        self.call("step", steps)
+        return self.row()
+
     def length(self):
         """Return a view of the step's length [s] in the struct."""
         return self.real.from_buffer(self.room, ctypes.sizeof(ctypes.c_double))
@@ -97,10 +103,7 @@ class Sheet:
 def off(sheet, steps=2000):
     """Return the largest differences from check.csv of displacements, forces and energies, and the peaks."""
     known = np.array([line.split(",") for line in sheet.found.texts["check.csv"].splitlines()[1:]], float)
-    found = [sheet.row()]
-    for _ in known[1:]:
-        sheet.call("step", steps // (len(known) - 1))
-        found.append(sheet.row())
+    found = [sheet.row(), *(sheet.after(steps // (len(known) - 1)) for _ in known[1:])]
     units = list(sheet.found.outputs.values())
     ends = np.cumsum([units.count("m"), units.count("N")])
     gap, own = (np.split(np.abs(one), ends, axis=1) for one in (found - known[:, 1:], known[:, 1:]))
@@ -187,8 +190,7 @@ def test_the_step_is_stable_and_a_fifth_more_is_not(name, tmp_path):
     for times in (1.0, 1.2):
         sheet.call("reset")
         sheet.length().value = times * sheet.found.step
-        sheet.call("step", 3000)
-        largest.append(np.abs(sheet.row()[:6]).max())
+        largest.append(np.abs(sheet.after(3000)[:6]).max())
     assert largest[0] < 0.3 and not largest[1] < 1.0
 
 
@@ -201,29 +203,23 @@ def test_inputs_are_what_a_scene_would_say(what, tmp_path):
     strip = STRIP.replace(probes={"tip": (0.2, 0.05)})
     natural = {"strain": (0.01, 0.0, 0.002), "curvature": (2.0, -1.0, 0.5)}
     rise = {"time": (0.0, 0.5 * h), "factor": (0.0, 1.0)}
-    way = ((0, 0, 0), (0, 0, 0), tuple(1.0 * v for v in rate))
+    way = ((0, 0, 0), (0, 0, 0), rate)
     course = {"time": (0.0, 0.5 * h, 0.5 * h + 1.0), "displacement": way, "interpolation": "linear"}
-    call, known = {
-        "force": (
-            ("set_force", 0, (0.0, 0.1, 0.2)),
-            {"loads": (PointLoad(at=(0.2, 0.05), force=(0.0, 0.1, 0.2), history=rise),)},
-        ),
-        "support": (
-            ("move_support", 0, [0.5 * h * v for v in rate], rate),
-            {"supports": (Clamped(edge="x0", motion=course),)},
-        ),
-        "natural": (
-            ("set_curvature", 0, ctypes.c_double(2.0)),
-            {"natural": natural | {"history": rise | {"factor": (1.0, 2.0)}}},
-        ),
-    }[what]
+    calls = {
+        "force": ("set_force", 0, (0.0, 0.1, 0.2)),
+        "support": ("move_support", 0, [0.5 * h * v for v in rate], rate),
+        "natural": ("set_curvature", 0, ctypes.c_double(2.0)),
+    }
+    known = {
+        "force": {"loads": (PointLoad(at=(0.2, 0.05), force=(0.0, 0.1, 0.2), history=rise),)},
+        "support": {"supports": (Clamped(edge="x0", motion=course),)},
+        "natural": {"natural": natural | {"history": rise | {"factor": (1.0, 2.0)}}},
+    }
     later = {"time": (0.0, 1e6), "factor": (1.0, 2.0)}  # springs are those of the last strain
     plain = strip.replace(natural=natural | {"history": later}) if what == "natural" else strip
     found = []
-    for number, scene in enumerate((strip.replace(**known), plain)):
-        folder = tmp_path / str(number)
-        folder.mkdir()
-        sheet = Sheet(folder, program(scene, calibrated(strip, (5, 3)), "double", 20))
+    for number, scene in enumerate((strip.replace(**known[what]), plain)):
+        sheet = Sheet(tmp_path / str(number), program(scene, calibrated(strip, (5, 3)), "double", 20))
         first = sheet.room
         for room in (first, ctypes.create_string_buffer(len(first))):
             sheet.room = room
@@ -231,12 +227,8 @@ def test_inputs_are_what_a_scene_would_say(what, tmp_path):
             sheet.length().value = h
         sheet.room = first
         if scene is plain:
-            sheet.call(*call)
-        rows = []
-        for _ in range(300):
-            sheet.call("step", 1)
-            rows.append(sheet.row()[:-1])
-        found.append(np.array(rows))
+            sheet.call(*calls[what])
+        found.append(np.array([sheet.after(1)[:-1] for _ in range(300)]))
     gap, peak = np.abs(found[1] - found[0]), np.abs(found[0])
     assert gap.max() < 1e-9 * peak.max() and gap[:, :3].max() < 1e-12 * peak[:, :3].max()
     left = sheet.row()

@@ -268,8 +268,8 @@ _Parts = tuple[np.ndarray, np.ndarray, tuple[tuple[Place, ...], ...]]
 
 
 def cut_squares(number: np.ndarray, odd: np.ndarray) -> Iterator[tuple[int, int, int]]:
-    """Yield the triangles of the squares between nodes of these numbers, each cut by a diagonal, by the other
-    one where `odd` is."""
+    """Yield the triangles of the squares between numbered nodes (m, n), each square cut by one diagonal, or
+    by the other where `odd` (m − 1, n − 1)."""
     for (i, j), other in np.ndenumerate(odd):
         a, d, b, c = number[i : i + 2, j : j + 2].ravel().tolist()
         yield from ((a, b, d), (b, c, d)) if other else ((a, b, c), (a, c, d))

@@ -148,8 +148,8 @@ def nearest(
 
 
 def limit_errors(scene: Scene, elements: int = 16) -> Callable[[Moduli], float]:
-    """Return a function of a cell's moduli: the error in a scene of the finest mesh of the cell, that of a
-    shell with these moduli. The sheet's own shell is solved once, here.
+    """Return a function of a cell's moduli: the error in a scene of the finest mesh of the cell, found by a
+    shell with the cell's moduli. The sheet's own shell is solved once, here.
 
     elements: along the side of a square, as many in all on others. The shell takes large rotations, as the
     meshes do. Both raise NoEquilibrium where the sheet, with its own moduli or the cell's, has no stable

@@ -83,11 +83,11 @@ def drag(page: Page, steps: int, waiting: bool) -> tuple[list[float], list[float
     for step in range(1, steps + 1):
         page.mouse.move(middle + 4 * (12 - abs(step % 24 - 12)), y)
         if waiting:
-            until(page, ANSWERED)
+            until(page, f"{ANSWERED} && live.shown.shell.after")
             shells.append(page.evaluate("live.shown.shell.after"))
     page.mouse.up()
     until(page, ANSWERED)
-    return page.evaluate("live.latencies")[before:], [ms for ms in shells if ms is not None]
+    return page.evaluate("live.latencies")[before:], shells
 
 
 @contextmanager

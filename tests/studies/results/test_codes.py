@@ -64,7 +64,7 @@ def test_rows_with_the_same_inputs_are_not_run_again(tmp_path, monkeypatch):
     recipes = [trials.Recipe(name, trials.ONE, keys=lambda _: {"tri_ke": 1.0}, squares=2) for name in "ab"]
     for module in (trials, results):
         monkeypatch.setattr(module, "RESULTS", tmp_path)
-    monkeypatch.setattr("comparisons.codes.setup.limit_error", lambda *_: 0.0)
+    monkeypatch.setattr("comparisons.codes.setup.limit_errors", lambda _: lambda _: 0.0)
     monkeypatch.setattr(trials, "CALIBRATED", {"thick": results.CASES["thick"]})
     monkeypatch.setattr(trials, "RECIPES", {"newton": recipes})
     said = []

@@ -8,14 +8,14 @@ A place has the depth δ, o = h/2 + δ₀ less its distance from the obstacle
 On a plane under a sheet that is flat when nothing acts on it δ is linear between corners of cells: its
 deepest points are corners, columns of masses, and each has a quarter of a cell's area. Else the patch may be
 anywhere in a cell and much smaller than it: the surface is curved at rest (`cell_surface`), δ is known at 3 ×
-3 points of each part of a cell, parts no longer than R/2, and biquadratic between them, and the integral runs
+3 points of each part of a cell, parts no longer than R/3, and biquadratic between them, and the integral runs
 over the patch (`patch`), whose size and place follow the sheet: the patch of a cradle slides. At rest ψ = ½ k
 δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the thickness to give. Motion
-has k = 0.065 ρ h ω_max² at most, cells straight between masses, and a law rounded over δ₁ = 0.3 h: ψ = k
-(⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than their tributary ones, so that a
-sheet which lands flat stays flat. Conserving midpoint steps have the mean force of Gonzalez (1996), from mean
-n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|². `docs/contact.md` has the reasons, and what
-energy they take.
+has k = 0.065 ρ h ω_max² at most, cells straight between masses, in parts up to R/2, and a law rounded over δ₁
+= 0.3 h: ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than their tributary
+ones, so that a sheet which lands flat stays flat. Conserving midpoint steps have the mean force of Gonzalez
+(1996), from mean n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|². `docs/contact.md` has the
+reasons, and what energy they take.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.distances import Near, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
-THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 32 parts
+THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 48 parts
 STIFFER = 100.0  # of E/h, where the patch may be small
 MOVING = 0.065  # of ω_max², that contact in motion adds at most
 ROUNDED = 0.3  # δ₁ of the thickness, in motion
@@ -61,10 +61,10 @@ class Pressed(NamedTuple):
     deepest: np.ndarray
 
 
-def parts_of_cells(sides: np.ndarray, radius: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return r, s (p,) of the points of a cell, and for each part the numbers (t, 9) of its points; as many
-    parts along the sides (2,) [m] as none is longer than half a radius, a multiple `of` 1 or 2."""
-    n, m = of * np.maximum(1, np.ceil(2.0 * sides / radius / of)).astype(int)
+    parts along the sides (2,) [m] as none is longer than `longest` [m], a multiple `of` 1 or 2."""
+    n, m = of * np.maximum(1, np.ceil(sides / longest / of)).astype(int)
     lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
     s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
     number = np.arange(len(r)).reshape(2 * m + 1, 2 * n + 1)
@@ -104,7 +104,8 @@ class Contact(LatticeItem):
         """Take cells as straight between masses unless they are `bent`, and divide them into parts, of which
         corners alone may be enough."""
         self.at_corners, self.bent = at_corners, bent and not at_corners
-        r, s, self.groups = parts_of_cells(self._sides, self.obstacle.radius, 2 if self.bent else 1)
+        longest = self.obstacle.radius / (3.0 if self.bent else 2.0)
+        r, s, self.groups = parts_of_cells(self._sides, longest, 2 if self.bent else 1)
         corners = self.groups[:, [0, 2, 6, 8]].ravel()
         if at_corners:
             on, corners = np.unique(corners, return_inverse=True)

@@ -9,9 +9,9 @@ p(δ) in sinking is its energy ψ per area, ½ k δ² at rest, and its force giv
 
 On a plane under a sheet that is flat when nothing acts on it nodes have areas ∫N dA, all positive on nine
 nodes, where they are Simpson's rule, and k = E/h. Else the place that touches may be anywhere in an element,
-and small: δ is biquadratic between 3 × 3 points of each of its parts, no longer than R/2, and integrals run
+and small: δ is biquadratic between 3 × 3 points of each of its parts, no longer than R/3, and integrals run
 over {δ > 0} (`patch`), with k STIFFER times as much; at rest elements join without kinks
-(`tangent_planes`). Motion has k = SOFTER E/h and ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
+(`tangent_planes`). Motion has parts up to R/2, k = SOFTER E/h and ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ class Touching(SheetItem):
             self.bent, size = not moving, 1.0
             full = STIFFER * full if self.bent else full
             least, longest = 4 if self.bent else 2, np.ptp(plan.corners, axis=1).max()
-            parts = least * max(1, int(np.ceil(2.0 * longest / obstacle.radius / least)))
+            finer = 3.0 if self.bent else 2.0
+            parts = least * max(1, int(np.ceil(finer * longest / obstacle.radius / least)))
             line = np.linspace(-1.0, 1.0, 2 * parts + 1)
             r, s = (coordinates.ravel() for coordinates in np.meshgrid(line, line, indexing="ij"))
             number = np.arange(len(r)).reshape(len(line), -1)

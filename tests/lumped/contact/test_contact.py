@@ -319,6 +319,5 @@ def test_drawn_sheet_is_not_walked_through(number):
 
 @pytest.mark.nightly
 def test_a_thousand_drawn_sheets():
-    """One is 2 µm deeper than allowed (docs/contact.md)."""
     faults = {number: found for number in range(1000) if (found := faults_of(number))}
-    assert faults.keys() == {484}, faults
+    assert not faults, faults

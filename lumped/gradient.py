@@ -129,7 +129,7 @@ class Equilibrium:
         if FORCES in both:
             loads = copy(loads)
             loads.last_dead = loads.last_dead + both[FORCES]
-        return Problem(plain.scene, assembly, plain.constraints, loads, plain.items)
+        return Problem(plain.scene, assembly, plain.constraints, loads, plain.contacts)
 
     @cached_property
     def _factor(self) -> Factor:
@@ -199,7 +199,7 @@ class Equilibrium:
                 for side, springs in pairs
             )
         scale = change / over
-        if low.assembly is high.assembly and low.constraints is high.constraints and not low.items:
+        if low.assembly is high.assembly and low.constraints is high.constraints and not low.contacts:
             force = scale * (high.loads.force(self.u) - low.loads.force(self.u))
             return self.problem.reduce(force), np.zeros_like(self.u), force
         unknowns, found = self.problem.constraints.nearest(self.u - self.problem.prescribed(1.0)), []

@@ -133,7 +133,7 @@ def samples(system: System, start: State, step: float, steps: int) -> list[list[
         acceleration = state.a + system.prescribed.support_acceleration(state.time)
         energies, exerted = system.balance(replace(state, a=acceleration))
         held, at = system.problem.constraints.reactions(exerted)[0], (state.u, system.drive(state.time))
-        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.items]
+        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.contacts]
         row = [[state.time], *probes.of(state.u), *held.values(), *pushed, [*energies.values()]]
         rows.append(np.concatenate(row).tolist())
     return rows

@@ -53,7 +53,7 @@ def item(request):
     problem = build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(11, 4, 2)))
     rng = np.random.default_rng(1)
     u = 0.01 * rng.normal(size=problem.loads.dead.shape) - [0.0, 0.0, 0.02]
-    return problem, problem.items[0], u, rng
+    return problem, problem.contacts[0], u, rng
 
 
 def applied(problem, blocks, step):

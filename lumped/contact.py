@@ -20,7 +20,7 @@ reasons, and what energy they take.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -46,17 +46,10 @@ Since = Deformed | None  # start of the step over which a mean is returned
 TO_CORNERS = np.kron(*2 * [np.array([[1, 0, 0], [0.5, 0, 0.5], [0, 0, 1]])])  # shares of nine points, (9, 9)
 
 
-class Pressed(NamedTuple):
-    """Cells `of` that may touch, the vectors of their sides (`CellSurface.vectors`), their points (m, p)
-    beside the obstacle, and of their groups of n points (m, t): energies [J], loads (…, n) [N] and
-    derivatives by depths (…, n, n) [N/m]."""
-
-    of: Any
-    sides: np.ndarray
-    near: Near
-    energy: np.ndarray
-    load: np.ndarray
-    slope: np.ndarray
+# cells that may touch, vectors of their sides (`CellSurface.vectors`), their points (m, p) beside the
+# obstacle, and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives by depths
+# (…, n, n) [N/m]
+Pressed = tuple[Any, np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]
 
 
 def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -152,7 +145,8 @@ class Contact:
             reach = farthest + 1.01 * self.offset.max(axis=1)
             of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
             sides, found = self._surface(at, of)
-            return Pressed(of, sides, found, *self._law(found.sunk[:, self.groups], of, tangent)[:3])
+            energy, load, slope, _ = self._law(found.sunk[:, self.groups], of, tangent)
+            return of, sides, found, energy, load, slope
         before, (sides, after) = self.near(since), self._surface(at, ...)
         start, end = before.sunk[:, self.groups], after.sunk[:, self.groups]
         (had, *_), (has, last, *_) = self._law(start, ...), self._law(end, ...)
@@ -165,7 +159,7 @@ class Contact:
         by = last - load - (half @ sunk[..., None])[..., 0] - 2.0 * more * sunk
         rank = sunk[..., :, None] * (by / square)[..., None, :]
         slope = half + more[..., None] * np.eye(half.shape[-1]) + 0.5 * (rank + rank.swapaxes(-1, -2))
-        return Pressed(..., sides, after.mean(before), has, load + more * sunk, slope)
+        return ..., sides, after.mean(before), has, load + more * sunk, slope
 
     def _at_points(self, load: np.ndarray) -> np.ndarray:
         """Return sums at points (m, p) of loads of groups (m, t, n)."""
@@ -180,12 +174,12 @@ class Contact:
     def add_force(self, at: Deformed, force: np.ndarray, since: Since = None) -> float:
         """Add the internal force, or, given the start of a step, the mean force whose work in the step is the
         energy's change; return the energy [J]."""
-        pressed = self._pressed(at, since)
-        pull = self.shares.T @ (self._at_points(pressed.load)[..., None] * pressed.near.slope)
+        of, sides, near, energy, load, _ = self._pressed(at, since)
+        pull = self.shares.T @ (self._at_points(load)[..., None] * near.slope)
         if self.bent:
-            pull = np.einsum("mqi,mqiaj->maj", pull, self.surface.first(pressed.sides), optimize=True)
-        np.add.at(force, self.nodes[pressed.of], -pull)
-        return float(pressed.energy.sum())
+            pull = np.einsum("mqi,mqiaj->maj", pull, self.surface.first(sides), optimize=True)
+        np.add.at(force, self.nodes[of], -pull)
+        return float(energy.sum())
 
     def add_tangent(
         self, at: Deformed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
@@ -221,9 +215,9 @@ class Contact:
     def _resisted(self, at: Deformed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
         """Return cells that may touch, velocities of points past the obstacle (m, p, 3) [m/s], and forces (m,
         p, 3) [N] of dashpot and friction with their derivatives by velocity (m, p, 3, 3)."""
-        pressed = self._pressed(at)
-        speed = self.weights @ (v[self.nodes[pressed.of]] - self.obstacle.velocity(at[1].time))
-        return pressed.of, speed, pressed.near.resistance(self._positive(pressed.load), speed)
+        of, _, near, _, load, _ = self._pressed(at)
+        speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(at[1].time))
+        return of, speed, near.resistance(self._positive(load), speed)
 
     def add_resistance(self, at: Deformed, v: np.ndarray, force: np.ndarray) -> float:
         """Add the force that resists the velocity; return the power taken [W]."""
@@ -266,7 +260,7 @@ class Contact:
 
     def rounding(self, at: Deformed) -> float:
         """Return the norm [N] of the error of its forces by rounding of displacements."""
-        touched = self._pressed(at, tangent=True).slope.sum(axis=(2, 3))
+        touched = self._pressed(at, tangent=True)[-1].sum(axis=(2, 3))
         return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
     def report(self, at: Deformed) -> tuple[ContactState, np.ndarray]:

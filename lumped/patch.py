@@ -55,17 +55,6 @@ def stops(c: np.ndarray) -> np.ndarray:
 
 
 @inner()
-def add_line(y: float, weight: float, lo: float, hi: float, points: np.ndarray, count: int) -> int:
-    """Append Gauss points between lo and hi at a y to the first `count` of `points` (…, 3), x, y, weight;
-    return the new count."""
-    for g in range(len(ALONG)):
-        points[count + g, 0] = 0.5 * (lo + hi) + 0.5 * (hi - lo) * ALONG[g]
-        points[count + g, 1] = y
-        points[count + g, 2] = weight * 0.5 * (hi - lo) * ALONG_WEIGHTS[g]
-    return count + len(ALONG)
-
-
-@inner()
 def patch(q: np.ndarray, points: np.ndarray) -> int:
     """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive: how
     many."""
@@ -73,31 +62,34 @@ def patch(q: np.ndarray, points: np.ndarray) -> int:
     bounds = BERNSTEIN @ square @ BERNSTEIN.T
     if bounds.max() <= 0.0:
         return 0
-    if bounds.min() > 0.0:
-        for g in range(len(ALONG)):
-            count = add_line(ALONG[g], ALONG_WEIGHTS[g], -1.0, 1.0, points, count)
-        return count
     c = POWERS @ square @ POWERS.T  # of y^i x^j
     for i in range(3):  # where two roots meet
         for j in range(3):
             products[i + j] += c[i, 1] * c[j, 1] - 4.0 * c[i, 2] * c[j, 0]
     low, high = c[:, 0] - c[:, 1] + c[:, 2], c[:, 0] + c[:, 1] + c[:, 2]  # at the sides
-    ends = np.sort(np.concatenate((stops(low), stops(high), stops(products))))
+    ends, across, weights = np.array([-1.0, 1.0]), ALONG, ALONG_WEIGHTS  # where it is positive all over
+    if bounds.min() <= 0.0:
+        ends = np.sort(np.concatenate((stops(low), stops(high), stops(products))))
+        across, weights = ACROSS, ACROSS_WEIGHTS
     for k in range(len(ends) - 1):
         half, middle = 0.5 * (ends[k + 1] - ends[k]), 0.5 * (ends[k + 1] + ends[k])
         if half <= 0.0:
             continue
-        for g in range(len(ACROSS)):
-            y, w = middle + half * ACROSS[g], half * ACROSS_WEIGHTS[g]
+        for g in range(len(across)):
+            y, w = middle + half * across[g], half * weights[g]
             at = c[0] + y * (c[1] + y * c[2])
             disc, cuts = at[1] * at[1] - 4.0 * at[2] * at[0], (-1.0, 1.0, 1.0, 1.0)
             if disc > 0.0:
-                t = -0.5 * (at[1] + np.copysign(np.sqrt(disc), at[1]))
-                cuts = (-1.0, min(t / at[2], at[0] / t), max(t / at[2], at[0] / t), 1.0)
+                root = -0.5 * (at[1] + np.copysign(np.sqrt(disc), at[1]))
+                cuts = (-1.0, min(root / at[2], at[0] / root), max(root / at[2], at[0] / root), 1.0)
             for i in range(3):
                 lo, hi = max(cuts[i], -1.0), min(cuts[i + 1], 1.0)
                 if hi > lo and value(at, 0.5 * (lo + hi)) > 0.0:
-                    count = add_line(y, w, lo, hi, points, count)
+                    for t in range(len(ALONG)):
+                        points[count, 0] = 0.5 * (lo + hi) + 0.5 * (hi - lo) * ALONG[t]
+                        points[count, 1] = y
+                        points[count, 2] = w * 0.5 * (hi - lo) * ALONG_WEIGHTS[t]
+                        count += 1
     return count
 
 

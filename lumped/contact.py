@@ -197,17 +197,15 @@ class Contact:
         change = change.reshape(len(cell), size, -1)
         by = np.zeros((len(on), *2 * change.shape[2:]))
         np.add.at(by, back, change.swapaxes(1, 2) @ slope[cell, group] @ change)
-        loads = self._at_points(load[on])
-        if not definite:
-            bent = loads[..., None] * near.curvature[on]
-            both = np.einsum("mpj,pa,pb->mabj", bent, shares, shares, optimize=True)
-            by -= (both[:, :, None] * projector(self.obstacle)[:, None]).reshape(by.shape)
+        loads = self._at_points(load[on]) * (not definite)
+        bent = loads[..., None] * near.curvature[on]
+        both = np.einsum("mpj,pa,pb->mabj", bent, shares, shares, optimize=True)
+        by -= (both[:, :, None] * projector(self.obstacle)[:, None]).reshape(by.shape)
         if self.bent:
             first = self.surface.first(sides[:, on]).reshape(len(on), 36, -1)
-            by = first.swapaxes(1, 2) @ by @ first
-            if not definite:
-                pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], near.slope[on])
-                by -= self.surface.second(sides[:, on], pull).reshape(by.shape)
+            pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], near.slope[on])
+            second = self.surface.second(sides[:, on], pull)
+            by = first.swapaxes(1, 2) @ by @ first - second.reshape(len(on), first.shape[2], -1)
         size = self.nodes.shape[1]
         of_masses = by.reshape(-1, size, 3, size, 3).transpose(0, 1, 3, 2, 4)
         np.add.at(blocks, self.slots[of][on], scale * of_masses)

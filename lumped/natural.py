@@ -54,10 +54,7 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
 
 
 def powers(
-    lattice: Lattice,
-    families: Sequence[Family],
-    state: tuple[np.ndarray, np.ndarray],
-    by: Sequence[np.ndarray],
+    lattice: Lattice, families: Sequence[Family], state: Sequence[np.ndarray], by: Sequence[np.ndarray]
 ) -> np.ndarray:
     """Return the derivatives of a power by the cells' natural strain and curvature, xx, yy and xy, (rows,
     columns, 6). families: of a flat sheet; state: both, (rows, columns, 2, 2); by: the derivatives by every
@@ -65,7 +62,7 @@ def powers(
     found = np.zeros((lattice.cell_areas.size, 6))
     for springs, power in zip(_natural(lattice, families), by, strict=True):
         if springs is not None:
-            for out, of in zip(found.T, springs.powers(*state, power), strict=True):
+            for out, of in zip(found.T, springs.powers(state, power), strict=True):
                 out += np.bincount(springs.cells.ravel(), of.ravel(), len(out))
     return found.reshape(*lattice.cell_areas.shape, 6)
 
@@ -116,9 +113,9 @@ class _Natural:
             return replace(self.family, rest_length=natural[0], natural=natural[1])
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    def powers(self, strain: np.ndarray, k: np.ndarray, power: np.ndarray) -> np.ndarray:
+    def powers(self, state: Sequence[np.ndarray], power: np.ndarray) -> np.ndarray:
         """Return the derivatives (6, m, q); see `powers` above."""
-        plan, growth = self._growth(strain, k)
+        plan, growth = self._growth(*state)
         found, by = np.zeros((6, *self.cells.shape)), power[:, None, -self.sides.shape[2] :]
         for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
             b = other + other_growth
@@ -128,7 +125,7 @@ class _Natural:
                 found[number + 3] -= z[:, None] * of
         found *= self.shares
         if isinstance(self.family, SpringCells):
-            by_constants = self._of_stiffness(strain)
+            by_constants = self._of_stiffness(state[0])
             found[:3, :, 0] += np.einsum("cnw,cn->wc", by_constants, power[:, : by_constants.shape[1]])
         return found
 

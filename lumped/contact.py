@@ -8,29 +8,26 @@ A place has the depth δ, o = h/2 + δ₀ less its distance from the obstacle
 On a plane under a sheet that is flat when nothing acts on it δ is linear between corners of cells: its
 deepest points are corners, columns of masses, and each has a quarter of a cell's area. Else the patch may be
 anywhere in a cell and much smaller than it: the surface is curved at rest (`cell_surface`), δ is known at 3 ×
-3 points of each part of a cell, parts no longer than R/2, and biquadratic between them, and the integral runs
+3 points of each part of a cell, parts no longer than R/3, and biquadratic between them, and the integral runs
 over the patch (`patch`), whose size and place follow the sheet: the patch of a cradle slides. At rest ψ = ½ k
 δ² with k = E/h, of patches STIFFER times as much: a small one leaves less than the thickness to give. Motion
-has k = 0.065 ρ h ω_max² at most, cells straight between masses, and a law rounded over δ₁ = 0.3 h: ψ = k
-(⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than their tributary ones, so that a
-sheet which lands flat stays flat. Conserving midpoint steps have the mean force of Gonzalez (1996), from mean
-n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|². `docs/contact.md` has the reasons, and what
-energy they take.
+has k = 0.065 ρ h ω_max² at most, cells straight between masses, in parts up to R/2, and a law rounded over δ₁
+= 0.3 h: ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁; areas are as much larger or smaller as masses are than their tributary
+ones, so that a sheet which lands flat stays flat. Conserving midpoint steps have the mean force of Gonzalez
+(1996), from mean n̄ and, of depths d of a part, p(d̄) + (Δψ − p(d̄)·Δd) Δd/|Δd|². `docs/contact.md` has the
+reasons, and what energy they take.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.cell_surface import CellSurface, CurvedSurface, shapes
-from lumped.items import Deformed, LatticeItem, Since
-from lumped.lattice import Lattice
+from lumped.cell_surface import CellSurface, shapes
 from lumped.masses import over_tributary
-from lumped.mid_surface import MidSurface
 from lumped.patch import integrate
 from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
@@ -39,32 +36,26 @@ from sheetbench.scenes.meaning.composition import constants_at
 from sheetbench.scenes.meaning.distances import Near, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
-THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 32 parts
+THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 48 parts
 STIFFER = 100.0  # of E/h, where the patch may be small
 MOVING = 0.065  # of ω_max², that contact in motion adds at most
 ROUNDED = 0.3  # δ₁ of the thickness, in motion
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
+Deformed = tuple[np.ndarray, Drive]  # displacement (n, 3) [m] of the masses, and load factor or time
+Since = Deformed | None  # start of the step over which a mean is returned
 TO_CORNERS = np.kron(*2 * [np.array([[1, 0, 0], [0.5, 0, 0.5], [0, 0, 1]])])  # shares of nine points, (9, 9)
 
 
-class Pressed(NamedTuple):
-    """Cells `of` that may touch, the vectors of their sides (`CellSurface.vectors`), their points (m, p)
-    beside the obstacle, and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives
-    by depths (…, n, n) [N/m], and the deepest place [m]."""
-
-    of: Any
-    sides: np.ndarray
-    near: Near
-    energy: np.ndarray
-    load: np.ndarray
-    slope: np.ndarray
-    deepest: np.ndarray
+# cells that may touch, vectors of their sides (`CellSurface.vectors`), their points (m, p) beside the
+# obstacle, and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives by depths
+# (…, n, n) [N/m]
+Pressed = tuple[Any, np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]
 
 
-def parts_of_cells(sides: np.ndarray, radius: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return r, s (p,) of the points of a cell, and for each part the numbers (t, 9) of its points; as many
-    parts along the sides (2,) [m] as none is longer than half a radius, a multiple `of` 1 or 2."""
-    n, m = of * np.maximum(1, np.ceil(2.0 * sides / radius / of)).astype(int)
+    parts along the sides (2,) [m] as none is longer than `longest` [m], a multiple `of` 1 or 2."""
+    n, m = of * np.maximum(1, np.ceil(sides / longest / of)).astype(int)
     lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
     s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
     number = np.arange(len(r)).reshape(2 * m + 1, 2 * n + 1)
@@ -72,24 +63,22 @@ def parts_of_cells(sides: np.ndarray, radius: float, of: int) -> tuple[np.ndarra
     return r, s, windows.reshape(-1, 9)
 
 
-class Contact(LatticeItem):
+class Contact:
     """Contact of a lattice with an obstacle: nodes (m, q) of cells, basis (p, 12) and weights (p, q), in the
-    straight surface, of their points; groups (t, n) of points: the nine of each part, or corners one by one.
-    Raises BadInput for an obstacle too thin."""
+    straight surface, of their points; groups (t, n) of points: the nine of each part, or corners one by one;
+    resists: whether it dissipates energy. Forces and velocities are (n, 3) [N], [m/s]; forces are internal,
+    the gradient of the energy. Raises BadInput for an obstacle too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle = name, obstacle
-        self.place, self.velocity = obstacle.place, obstacle.velocity
-        self.moves = obstacle.motion is not None
         self.resists = obstacle.friction > 0.0 or obstacle.contact_damping > 0.0
         lattice = assembly.lattice
         across = np.linalg.norm(projector(obstacle)[:2], axis=1)  # how much of a side is across its axis
         sides = across * [line.widths.max() for line in lattice.lines]
         if obstacle.radius < THINNEST * sides.max():
             thin = f"{name}.radius = {obstacle.radius:g}: too thin for cells of {1e3 * sides.max():.3g} mm"
-            raise BadInput(
-                f"{thin}, which would miss it; take {THINNEST:g} of a cell or more, or a finer grid"
-            )
+            instead = f"take {THINNEST:g} of a cell or more, or a finer grid"
+            raise BadInput(f"{thin}, which would miss it; {instead}")
         self._scene, self._lattice, self._sides = scene, lattice, sides
         self.surface = CellSurface(lattice.grid, lattice.layer_distance)
         self.nodes = lattice.mid_cells.reshape(-1, 4 * lattice.grid[2])
@@ -104,7 +93,8 @@ class Contact(LatticeItem):
         """Take cells as straight between masses unless they are `bent`, and divide them into parts, of which
         corners alone may be enough."""
         self.at_corners, self.bent = at_corners, bent and not at_corners
-        r, s, self.groups = parts_of_cells(self._sides, self.obstacle.radius, 2 if self.bent else 1)
+        longest = self.obstacle.radius / (3.0 if self.bent else 2.0)
+        r, s, self.groups = parts_of_cells(self._sides, longest, 2 if self.bent else 1)
         corners = self.groups[:, [0, 2, 6, 8]].ravel()
         if at_corners:
             on, corners = np.unique(corners, return_inverse=True)
@@ -113,14 +103,12 @@ class Contact(LatticeItem):
         self.weights = self.basis[:, :4] @ self.surface.corners
         plan, shape = (self.weights @ self._rest)[..., :2], (len(self.nodes), len(r))
         constants = constants_at(self._scene, plan).arrays(shape)
-        self.thickness, self.full = constants.thickness, constants.stretching / constants.thickness**2
-        self.full = self.full * (1.0 if at_corners else STIFFER)
+        self.thickness, stiffer = constants.thickness, 1.0 if at_corners else STIFFER
+        self.full = stiffer * constants.stretching / self.thickness**2
         self.offset, areas = (0.5 + TOUCH) * self.thickness, self._lattice.cell_areas
         self.area = np.outer(areas[areas > 0.0], np.bincount(corners, minlength=len(r))) / len(corners)
-        within = (
-            0.25 / len(self.groups) * self.area.sum(axis=1)[:, None, None]
-        )  # by a part's dr ds, of −1 to 1
-        self.sizes = self.area[:, self.groups] if at_corners else within
+        by_part = self.area.sum(axis=1)[:, None, None] / (4 * len(self.groups))  # its dr ds, of −1 to 1
+        self.sizes = self.area[:, self.groups] if at_corners else by_part
         self.shares = self.basis if self.bent else self.weights
 
     def _surface(self, at: Deformed, of: Any) -> tuple[np.ndarray, Near]:
@@ -129,31 +117,24 @@ class Contact(LatticeItem):
             vectors, sides = self.surface.vectors(vectors)
         return sides, near(self.obstacle, self.shares @ vectors, self.offset[of], at[1])
 
-    def curved(self, u: np.ndarray, plan: np.ndarray) -> tuple[np.ndarray, CurvedSurface]:
-        """Return displacements (k, 3) [m] at plan points (k, 2) on the curved surface, and the map of their
-        changes. Raises BadInput for points off the sheet."""
-        (nx, ny, _), lines = self._lattice.grid, self._lattice.lines
-        (column, r), (row, s) = (line.index(at) for line, at in zip(lines, plan.T, strict=True))
-        number = np.full((ny - 1) * (nx - 1), -1)
-        number[self._lattice.present_cells] = np.arange(len(self.nodes))
-        cell = number[row * (nx - 1) + column]
-        share, nodes = shapes(r, s)[:, 4:] * (cell >= 0)[:, None], self.nodes[cell]
-        vectors, ends = self.surface.vectors(self._rest[cell] + u[nodes])
-        by = np.einsum("kq,kqiaj->kiaj", share, self.surface.first(ends)[:, 4:])
-        straight = MidSurface(self._lattice, plan, order=1)
-        curves = np.einsum("kq,kqi->ki", share, vectors[:, 4:])
-        return straight.of(u) + curves, CurvedSurface(self._lattice, plan, nodes, by)
-
     def near(self, at: Deformed) -> Near:
         """Return the places of points (m, p) of cells beside the obstacle."""
         return self._surface(at, ...)[1]
 
     def _law(self, depth: np.ndarray, of: Any, tangent: bool = False) -> tuple[np.ndarray, ...]:
         """Return energies, loads, slopes and deepest places at depths (m, t, n) (`Pressed`)."""
+        over, n = self.rounded * self.thickness[of][:, self.groups[:, :1]], depth.shape[2]
         k = (self.share * self.full[of])[:, self.groups] * self.sizes[of]
-        over, n = self.rounded * self.thickness[of][:, self.groups[:, 0]], depth.shape[2]
-        found = integrate(depth.reshape(-1, n), k.reshape(-1, n), over.ravel(), tangent)
-        return tuple(each.reshape(*depth.shape[:2], *each.shape[1:]) for each in found)
+
+        def integrals(less: Any, k: np.ndarray, power: int) -> tuple[np.ndarray, ...]:
+            rows = (np.ascontiguousarray(each).reshape(-1, n) for each in (depth - less, k))
+            found = integrate(*rows, power, tangent)
+            return tuple(each.reshape(*depth.shape[:2], *each.shape[1:]) for each in found)
+
+        if not self.rounded:
+            return integrals(0.0, k, 2)
+        (*full, deepest), (*less, _) = integrals(0.0, k / over, 3), integrals(over, k / over, 3)
+        return *(a - b for a, b in zip(full, less, strict=True)), deepest
 
     def _pressed(self, at: Deformed, since: Since = None, tangent: bool = False) -> Pressed:
         """Return the state of cells that may touch; since: the mean of a step from there."""
@@ -164,11 +145,12 @@ class Contact(LatticeItem):
             reach = farthest + 1.01 * self.offset.max(axis=1)
             of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
             sides, found = self._surface(at, of)
-            return Pressed(of, sides, found, *self._law(found.sunk[:, self.groups], of, tangent))
+            energy, load, slope, _ = self._law(found.sunk[:, self.groups], of, tangent)
+            return of, sides, found, energy, load, slope
         before, (sides, after) = self.near(since), self._surface(at, ...)
         start, end = before.sunk[:, self.groups], after.sunk[:, self.groups]
         (had, *_), (has, last, *_) = self._law(start, ...), self._law(end, ...)
-        _, load, slope, deepest = self._law(0.5 * (start + end), ..., True)
+        _, load, slope, _ = self._law(0.5 * (start + end), ..., True)
         sunk, half = end - start, 0.5 * slope
         square = (sunk * sunk).sum(axis=2)[..., None]
         far = square > (SAME_DEPTH * self.thickness[:, :1, None]) ** 2
@@ -177,7 +159,7 @@ class Contact(LatticeItem):
         by = last - load - (half @ sunk[..., None])[..., 0] - 2.0 * more * sunk
         rank = sunk[..., :, None] * (by / square)[..., None, :]
         slope = half + more[..., None] * np.eye(half.shape[-1]) + 0.5 * (rank + rank.swapaxes(-1, -2))
-        return Pressed(..., sides, after.mean(before), has, load + more * sunk, slope, deepest)
+        return ..., sides, after.mean(before), has, load + more * sunk, slope
 
     def _at_points(self, load: np.ndarray) -> np.ndarray:
         """Return sums at points (m, p) of loads of groups (m, t, n)."""
@@ -190,17 +172,22 @@ class Contact(LatticeItem):
         return self._at_points(load if self.at_corners else load @ TO_CORNERS)
 
     def add_force(self, at: Deformed, force: np.ndarray, since: Since = None) -> float:
-        pressed = self._pressed(at, since)
-        pull = self.shares.T @ (self._at_points(pressed.load)[..., None] * pressed.near.slope)
+        """Add the internal force, or, given the start of a step, the mean force whose work in the step is the
+        energy's change; return the energy [J]."""
+        of, sides, near, energy, load, _ = self._pressed(at, since)
+        pull = self.shares.T @ (self._at_points(load)[..., None] * near.slope)
         if self.bent:
-            pull = np.einsum("mqi,mqiaj->maj", pull, self.surface.first(pressed.sides), optimize=True)
-        np.add.at(force, self.nodes[pressed.of], -pull)
-        return float(pressed.energy.sum())
+            pull = np.einsum("mqi,mqiaj->maj", pull, self.surface.first(sides), optimize=True)
+        np.add.at(force, self.nodes[of], -pull)
+        return float(energy.sum())
 
     def add_tangent(
         self, at: Deformed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
-        of, sides, near, _, load, slope, _ = self._pressed(at, since, True)
+        """Add scale × the force's derivative to the pattern's blocks (b, 3, 3) [N/m]; for the mean force of a
+        step the symmetric part of the derivative by the displacement at the step's end. definite: leave out
+        parts that could make the tangent indefinite."""
+        of, sides, near, _, load, slope = self._pressed(at, since, True)
         cell, group = np.nonzero(load.any(axis=2))
         on, back = np.unique(cell, return_inverse=True)
         if not len(on):
@@ -210,17 +197,15 @@ class Contact(LatticeItem):
         change = change.reshape(len(cell), size, -1)
         by = np.zeros((len(on), *2 * change.shape[2:]))
         np.add.at(by, back, change.swapaxes(1, 2) @ slope[cell, group] @ change)
-        loads = self._at_points(load[on])
-        if not definite:
-            bent = loads[..., None] * near.curvature[on]
-            both = np.einsum("mpj,pa,pb->mabj", bent, shares, shares, optimize=True)
-            by -= (both[:, :, None] * projector(self.obstacle)[:, None]).reshape(by.shape)
+        loads = self._at_points(load[on]) * (not definite)
+        bent = loads[..., None] * near.curvature[on]
+        both = np.einsum("mpj,pa,pb->mabj", bent, shares, shares, optimize=True)
+        by -= (both[:, :, None] * projector(self.obstacle)[:, None]).reshape(by.shape)
         if self.bent:
             first = self.surface.first(sides[:, on]).reshape(len(on), 36, -1)
-            by = first.swapaxes(1, 2) @ by @ first
-            if not definite:
-                pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], near.slope[on])
-                by -= self.surface.second(sides[:, on], pull).reshape(by.shape)
+            pull = np.einsum("mp,pq,mpi->mqi", loads, self.basis[:, 4:], near.slope[on])
+            second = self.surface.second(sides[:, on], pull)
+            by = first.swapaxes(1, 2) @ by @ first - second.reshape(len(on), first.shape[2], -1)
         size = self.nodes.shape[1]
         of_masses = by.reshape(-1, size, 3, size, 3).transpose(0, 1, 3, 2, 4)
         np.add.at(blocks, self.slots[of][on], scale * of_masses)
@@ -228,11 +213,12 @@ class Contact(LatticeItem):
     def _resisted(self, at: Deformed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
         """Return cells that may touch, velocities of points past the obstacle (m, p, 3) [m/s], and forces (m,
         p, 3) [N] of dashpot and friction with their derivatives by velocity (m, p, 3, 3)."""
-        pressed = self._pressed(at)
-        speed = self.weights @ (v[self.nodes[pressed.of]] - self.obstacle.velocity(at[1].time))
-        return pressed.of, speed, pressed.near.resistance(self._positive(pressed.load), speed)
+        of, _, near, _, load, _ = self._pressed(at)
+        speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(at[1].time))
+        return of, speed, near.resistance(self._positive(load), speed)
 
     def add_resistance(self, at: Deformed, v: np.ndarray, force: np.ndarray) -> float:
+        """Add the force that resists the velocity; return the power taken [W]."""
         if not self.resists:
             return 0.0
         of, speed, (pull, _) = self._resisted(at, v)
@@ -240,34 +226,40 @@ class Contact(LatticeItem):
         return -float((pull * speed).sum())
 
     def add_resistance_tangent(self, at: Deformed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
+        """Add scale × the derivative of the resisting force by the velocity [N·s/m]."""
         if self.resists:
             of, _, (_, by_speed) = self._resisted(at, v)
             touched = by_speed.any(axis=(1, 2, 3))
-            of_masses = np.einsum(
-                "pa,pb,mpij->mabij", self.weights, self.weights, by_speed[touched], optimize=True
-            )
+            sides = self.weights, self.weights, by_speed[touched]
+            of_masses = np.einsum("pa,pb,mpij->mabij", *sides, optimize=True)
             np.add.at(blocks, self.slots[of][touched], -scale * of_masses)
+
+    def exerted(self, at: Deformed, v: np.ndarray | None = None) -> np.ndarray:
+        """Return the obstacle's forces on the masses (n, 3) [N]; v: velocity in motion."""
+        force = np.zeros_like(at[0])
+        self.add_force(at, force)
+        if v is not None:
+            self.add_resistance(at, v, force)
+        return -force
 
     def _of_masses(self, points: np.ndarray) -> np.ndarray:
         """Return sums (n,) at masses of values at points (m, p), shared by their weights."""
         return np.bincount(self.nodes.ravel(), (points @ self.weights).ravel(), minlength=self._masses)
 
     def stiffest(self, mass: np.ndarray) -> float:
+        """Return a bound of the increase of squared frequencies ω² [1/s²] by contact; mass: (n,) [kg]."""
         return float((self._of_masses(self.area * self.share * self.full) / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
+        """Set the stiffness in motion, relative to the springs' highest squared frequency [1/s²]."""
         self.divide(at_corners=isinstance(self.obstacle, Plane))
-        self.full = self.full * np.einsum("pq,mq->mp", self.weights, self._inert[self.nodes])
-        self.rounded = ROUNDED
+        self.full, self.rounded = self.full * (self._inert[self.nodes] @ self.weights.T), ROUNDED
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
     def rounding(self, at: Deformed) -> float:
-        touched = self._pressed(at, tangent=True).slope.sum(axis=(2, 3))
+        """Return the norm [N] of the error of its forces by rounding of displacements."""
+        touched = self._pressed(at, tangent=True)[-1].sum(axis=(2, 3))
         return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
-
-    def touches(self, at: Deformed) -> bool:
-        """Return whether the obstacle touches the sheet."""
-        return bool(self._pressed(at).energy.any())
 
     def report(self, at: Deformed) -> tuple[ContactState, np.ndarray]:
         """Return the state of contact at an equilibrium and the pressure (n,) [Pa] at the masses."""
@@ -291,15 +283,3 @@ class Contact(LatticeItem):
         values = [*np.broadcast_to(place, (cells, len(at), 7)).T, *of_points]
         masses, weights = np.repeat(self.nodes, len(at), axis=0), np.tile(self.weights[at], (cells, 1))
         return masses, weights, np.stack(values).T.reshape(-1, 10)
-
-
-def middle(
-    touching: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray
-) -> tuple[np.ndarray, MidSurface]:
-    """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch, if it is
-    curved, and the map of their changes. touching: obstacles in contact. Raises BadInput for points
-    off the sheet."""
-    if bent := [one for one in touching if one.bent]:
-        return bent[0].curved(u, points)
-    surface = MidSurface(lattice, points)
-    return surface.of(u), surface

@@ -106,7 +106,7 @@ class Base:
         if FORCES in values:
             loads = copy(loads)
             loads.last_dead = loads.last_dead + values[FORCES]
-        return Problem(problem.scene, assembly, problem.constraints, loads, problem.items)
+        return Problem(problem.scene, assembly, problem.constraints, loads, problem.contacts)
 
     def names(self) -> list[str]:
         """Return the names of all derivatives."""
@@ -191,7 +191,7 @@ class Equilibrium:
                 for side, springs in sides
             )
             scale = change / over
-        if low.assembly is high.assembly and low.constraints is high.constraints and not low.items:
+        if low.assembly is high.assembly and low.constraints is high.constraints and not low.contacts:
             force = scale * (high.loads.force(self.u) - low.loads.force(self.u))
             return self.problem.reduce(force), np.zeros_like(self.u), force
         unknowns, found = self.problem.constraints.nearest(self.u - self.problem.prescribed(1.0)), []

@@ -114,7 +114,7 @@ def solve_many(
 def _plain(sheet: Differentiable) -> bool:
     """Return whether a lattice has only springs of linear laws, only dead loads and a small matrix."""
     problem = sheet.problem
-    others = problem.items or problem.assembly.coupling is not None or problem.loads.follow
+    others = problem.contacts or problem.assembly.coupling is not None or problem.loads.follow
     linear = problem.assembly.conservative and not problem.assembly.any_strain
     flat = problem.assembly.natural is None and not len(problem.assembly.springs[3])
     return bool(not others and linear and flat and problem.system.band is not None)

@@ -133,7 +133,7 @@ def samples(system: System, start: State, step: float, steps: int) -> list[list[
         acceleration = state.a + system.prescribed.support_acceleration(state.time)
         energies, exerted = system.balance(replace(state, a=acceleration))
         held, at = system.problem.constraints.reactions(exerted)[0], (state.u, system.drive(state.time))
-        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.items]
+        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.contacts]
         row = [[state.time], *probes.of(state.u), *held.values(), *pushed, [*energies.values()]]
         rows.append(np.concatenate(row).tolist())
     return rows
@@ -223,15 +223,14 @@ def add_contact(tables: Tables, system: System) -> None:
     lattice, obstacles = system.assembly.lattice, system.scene.obstacles
     points, blocks = [np.empty((0, 12))], [np.empty((0, 9), int)]
     for number, contact in enumerate(system.problem.contacts):
-        body, area, offset, first = contact.obstacle, contact.area, contact.offset, sum(map(len, points))
+        body, size, offset = contact.obstacle, contact.sizes[..., 0], contact.offset
         if not contact.at_corners:
-            area = area.sum(axis=1)[:, None] / (4 * len(contact.groups))
-            of_cells = first + len(contact.basis) * np.arange(len(area))
+            of_cells = sum(map(len, points)) + len(contact.basis) * np.arange(len(size))
             blocks.append((of_cells[:, None, None] + contact.groups).reshape(-1, 9))
         if isinstance(body, Plane):  # from where the points rest
             rest = contact.weights @ lattice.positions[contact.nodes]
             offset = offset - (rest - body.position) @ body.direction
-        values = offset, contact.share * contact.full * area, contact.rounded * contact.thickness
+        values = offset, contact.share * contact.full * size, contact.rounded * contact.thickness
         columns = middle_of(system, contact.nodes[:, None, :: lattice.grid[2]])
         shares = contact.weights.reshape(-1, 4, lattice.grid[2]).sum(axis=2)
         parts = np.full((1, 1, 1), number), columns, shares, np.stack(values, axis=2)

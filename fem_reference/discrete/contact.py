@@ -9,9 +9,9 @@ p(δ) in sinking is its energy ψ per area, ½ k δ² at rest, and its force giv
 
 On a plane under a sheet that is flat when nothing acts on it nodes have areas ∫N dA, all positive on nine
 nodes, where they are Simpson's rule, and k = E/h. Else the place that touches may be anywhere in an element,
-and small: δ is biquadratic between 3 × 3 points of each of its parts, no longer than R/2, and integrals run
+and small: δ is biquadratic between 3 × 3 points of each of its parts, no longer than R/3, and integrals run
 over {δ > 0} (`patch`), with k STIFFER times as much; at rest elements join without kinks
-(`tangent_planes`). Motion has k = SOFTER E/h and ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
+(`tangent_planes`). Motion has parts up to R/2, k = SOFTER E/h and ψ = k (⟨δ⟩³ − ⟨δ − δ₁⟩³)/6δ₁, δ₁ = 0.3 h.
 """
 
 from __future__ import annotations
@@ -48,17 +48,19 @@ class Touching(SheetItem):
         constants, weight = constants_of(scene, plan.corners), areas(plan.corners)
         of_nodes = weight @ AT_GAUSS[0]
         thickness = (weight * constants.thickness) @ AT_GAUSS[0] / of_nodes
-        full = (weight * constants.stretching / constants.thickness**2) @ AT_GAUSS[0] / of_nodes
+        curled = not moving and bool(scene.natural_by or scene.actuators)
+        at_nodes = isinstance(obstacle, Plane) and not curled
+        self.bent = not (moving or at_nodes)
+        stiffness = (STIFFER if self.bent else 1.0) * constants.stretching / constants.thickness**2
+        full = (weight * stiffness) @ AT_GAUSS[0] / of_nodes
         self.levers = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), thickness)
-        curled, self.bent, size = not moving and bool(scene.natural_by or scene.actuators), False, 0.25
-        if isinstance(obstacle, Plane) and not curled:
+        if at_nodes:
             self.basis = self.hats = self.shares = np.eye(9)
             self.groups, self.area = np.repeat(np.arange(9), 9).reshape(9, 9), of_nodes
         else:
-            self.bent, size = not moving, 1.0
-            full = STIFFER * full if self.bent else full
-            least, longest = 4 if self.bent else 2, np.ptp(plan.corners, axis=1).max()
-            parts = least * max(1, int(np.ceil(2.0 * longest / obstacle.radius / least)))
+            least, finer = (4, 3.0) if self.bent else (2, 2.0)
+            longest = finer * np.ptp(plan.corners, axis=1).max() / obstacle.radius
+            parts = least * max(1, int(np.ceil(longest / least)))
             line = np.linspace(-1.0, 1.0, 2 * parts + 1)
             r, s = (coordinates.ravel() for coordinates in np.meshgrid(line, line, indexing="ij"))
             number = np.arange(len(r)).reshape(len(line), -1)
@@ -67,7 +69,7 @@ class Touching(SheetItem):
             curves, self.hats = tangent_planes.shares(r, s)
             self.shares = np.hstack([self.basis, curves]) if self.bent else self.basis
             self.area = np.abs(np.linalg.det(jacobians(plan.corners, slope))) / parts**2  # by a part's dr ds
-        self.of_groups = size * self.area[:, self.groups]
+        self.of_groups = (0.25 if at_nodes else 1.0) * self.area[:, self.groups]
         self.thickness, self.full = thickness @ self.basis.T, full @ self.basis.T
         self.offset = (TOUCH + (0.0 if solid else 0.5)) * self.thickness
         self.share, self.rounded = (SOFTER, ROUNDED) if moving else (1.0, 0.0)
@@ -143,9 +145,8 @@ class Touching(SheetItem):
         on, back = np.unique(element, return_inverse=True)
         points, n = self.groups[group], self.shares.shape[1]
         out = np.zeros((len(load), len(on), 3 * n, 3 * n))
-        change = (
-            self.shares[points][..., None] * found.slope[face[:, None], element[:, None], points][:, :, None]
-        )
+        at = face[:, None], element[:, None], points
+        change = self.shares[points][..., None] * found.slope[at][:, :, None]
         change = change.reshape(len(face), points.shape[1], 3 * n)
         np.add.at(out, (face, back), -change.swapaxes(1, 2) @ slope[face, element, group] @ change)
         loads = self._at_points(load)[:, on]

@@ -39,24 +39,23 @@ def shares(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _at_nodes(vectors: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Return φ,k and d (m, 2, 9, 3), and φ,k·d and d·d (m, 2, 9, 1), of vectors (m, 18, 3)."""
-    slope, d = np.einsum("kivj,ejc->vekic", LINEAR, vectors, optimize=True)
-    return slope, d, (slope * d).sum(-1, keepdims=True), (d * d).sum(-1, keepdims=True)
+    """Return v = φ,k, d and n = d/|d|² (m, 2, 9, 3), and d·d (m, 2, 9, 1), of vectors (m, 18, 3)."""
+    v, d = np.einsum("kivj,ejc->vekic", LINEAR, vectors, optimize=True)
+    square = (d * d).sum(-1, keepdims=True)
+    return v, d, d / square, square
 
 
 def corrections(vectors: np.ndarray) -> np.ndarray:
     """Return a (m, 18, 3) along r, then s."""
-    _, d, along, square = _at_nodes(vectors)
-    return np.asarray(-along / square * d).reshape(-1, 18, 3)
+    v, d, n, _ = _at_nodes(vectors)
+    return np.asarray(-(v * d).sum(-1, keepdims=True) * n).reshape(-1, 18, 3)
 
 
 def first(vectors: np.ndarray) -> np.ndarray:
     """Return derivatives (m, 18, 3, 18, 3) of a by the vectors."""
-    slope, d, along, square = _at_nodes(vectors)
-    along, square, dyad = along[..., None], square[..., None], outer(d, d)
-    by = np.stack(
-        [-dyad / square, -(along * EYE + outer(d, slope)) / square + 2.0 * along * dyad / square**2]
-    )
+    v, d, n, _ = _at_nodes(vectors)
+    along = (v * n).sum(-1)[..., None, None]
+    by = np.stack([-outer(d, n), along * (2.0 * outer(d, n) - EYE) - outer(n, v)])
     return np.einsum("vekicd,kivj->ekicjd", by, LINEAR, optimize=True).reshape(-1, 18, 3, 18, 3)
 
 
@@ -70,20 +69,15 @@ def change_at(mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> tuple[
 
 
 def second(vectors: np.ndarray, pull: np.ndarray) -> np.ndarray:
-    """Return Σ f·∂²a (m, 18, 3, 18, 3) by the vectors, of f on a (m, 18, 3)."""
-    slope, d, along, square = _at_nodes(vectors)
+    """Return Σ f·∂²a (m, 18, 3, 18, 3) by the vectors, of f on a (m, 18, 3): of −(v·d)(f·d)/d·d."""
+    v, d, n, square = _at_nodes(vectors)
     f = pull.reshape(d.shape)
-    pulled = (f * d).sum(-1, keepdims=True)
-    turned = slope * pulled + f * along
-    mixed, both = outer(d, f) + pulled[..., None] * EYE, outer(slope, f) + outer(f, slope)
-    cross = outer(turned, d) + outer(d, turned)
-    along, pulled, square, dyad = along[..., None], pulled[..., None], square[..., None], outer(d, d)
+    along, pulled = ((of * d).sum(-1, keepdims=True) for of in (v, f))
+    half, dyad = 2.0 * outer(along * f + pulled * v, n) - outer(v, f), outer(n, n)
+    along, pulled, square = along[..., None], pulled[..., None], square[..., None]
     by = np.zeros((2, 2, *dyad.shape))
-    by[0, 1] = -mixed / square + 2.0 * pulled * dyad / square**2
+    by[0, 1] = pulled * (2.0 * dyad - EYE / square) - outer(n, f)
     by[1, 0] = by[0, 1].swapaxes(-1, -2)
-    by[1, 1] = (
-        -both / square
-        + 2.0 * (cross + along * pulled * EYE) / square**2
-        - 8.0 * along * pulled * dyad / square**3
-    )
+    by[1, 1] = half + half.swapaxes(-1, -2) + 2.0 * along * pulled * (EYE / square - 4.0 * dyad)
+    by[1, 1] /= square
     return np.einsum("kivj,vwekicd,kiwl->ejcld", LINEAR, by, LINEAR, optimize=True)

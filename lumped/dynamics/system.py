@@ -18,10 +18,10 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
+from lumped.contact import Deformed
 from lumped.dynamics.damping import Damping, MovingForces, add_forces
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
-from lumped.items import Deformed
 from lumped.masses import masses
 from lumped.payloads import pairs_of, rotary_masses
 from lumped.springs.packing import pack, scratch
@@ -78,8 +78,8 @@ class System:
     def __init__(self, scene: Scene, problem: Problem, mass: np.ndarray | None = None):
         self.scene, self.problem, self.assembly = scene, problem, problem.assembly
         self.coupling = problem.assembly.coupling
-        self.items = problem.items
-        self.pushed = any(item.moves for item in self.items)
+        self.contacts = problem.contacts
+        self.pushed = any(one.obstacle.motion is not None for one in self.contacts)
         self.transform = problem.constraints.transform
         size, lattice = self.assembly.pattern.size, self.assembly.lattice
         shared = masses(scene, lattice, self.assembly.inertia, self.assembly.cells)
@@ -125,7 +125,7 @@ class System:
     @property
     def resists(self) -> bool:
         """Return whether there is dissipation other than by branches."""
-        return self.damping.present or any(item.resists for item in self.items)
+        return self.damping.present or any(one.resists for one in self.contacts)
 
     @property
     def constrained(self) -> bool:
@@ -140,7 +140,7 @@ class System:
         self, u: np.ndarray, v: np.ndarray, time: float, elastic: bool = True, damped: bool = True
     ) -> tuple[float, float, np.ndarray]:
         """Return elastic energy [J], power taken by the dampers [W] and the internal force (size, 3) [N],
-        elastic, damping or both, of springs with branches, actuators with multipliers, and items."""
+        elastic, damping or both, of springs with branches, actuators with multipliers, and obstacles."""
         energy, force, at = 0.0, np.zeros_like(u), (u, self.drive(time))
         packed = elastic and self.packed
         if elastic and self.maxwell is not None:
@@ -152,9 +152,9 @@ class System:
         if self.coupling is not None:
             energy += self.coupling.add_force(*at, force) if elastic else 0.0
             power += self.coupling.add_damping_force(u, v, force) if damped else 0.0
-        for item in self.items:
-            energy += item.add_force(at, force) if elastic else 0.0
-            power += item.add_resistance(at, v, force) if damped else 0.0
+        for contact in self.contacts:
+            energy += contact.add_force(at, force) if elastic else 0.0
+            power += contact.add_resistance(at, v, force) if damped else 0.0
         return energy, power, force
 
     @cached_property
@@ -199,8 +199,8 @@ class System:
         if self.coupling is not None:
             self.coupling.add_average_force(start.u, end, self.drive(time), force)
         since, drive = self.ends(start, time)
-        for item in self.items:
-            item.add_force((end, drive), force, since)
+        for contact in self.contacts:
+            contact.add_force((end, drive), force, since)
         return force
 
     def ends(self, start: State, middle: float) -> tuple[Deformed, Drive]:
@@ -219,7 +219,7 @@ class System:
     ) -> np.ndarray:
         """Return the blocks of mass × M + damping × C + stiffness × K at a state; constraints count once. The
         change of C with the shape is left out: it is unsymmetric, of the order of the turn in a step. ends:
-        start and end of a step, for which items have the derivative of the mean force by its end."""
+        start and end of a step, for which contact has the derivative of the mean force by its end."""
         elastic = stiffness if self.maxwell is None else stiffness * self.maxwell.gain
         both = elastic + damping * self.damping.time  # proportional dampers are parallel to the springs
         share, stresses = elastic / both if both else 0.0, None
@@ -235,13 +235,13 @@ class System:
             self.coupling.add_tangent(u, self.drive(time), slots, blocks, stiffness, damping)
             np.add.at(blocks, slots, mass * self._chain_mass)
         self.damping.add_velocity_tangent(u, v, damping, blocks)
-        for item in self.items:
+        for contact in self.contacts:
             if ends is None:
-                item.add_tangent((u, self.drive(time)), stiffness, blocks)
+                contact.add_tangent((u, self.drive(time)), stiffness, blocks)
             else:
                 since, drive = self.ends(ends[0], time)
-                item.add_tangent((ends[1], drive), 1.0, blocks, since=since)
-            item.add_resistance_tangent((u, self.drive(time)), v, damping, blocks)
+                contact.add_tangent((ends[1], drive), 1.0, blocks, since=since)
+            contact.add_resistance_tangent((u, self.drive(time)), v, damping, blocks)
         return blocks
 
     def for_step(self, state: State, ahead: float = 0.0) -> Self:

@@ -19,9 +19,9 @@ def work(system: System, before: State, after: State) -> float:
         mean = 0.5 * (system.external(before.u, before.time) + system.external(after.u, after.time))
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
     then, now = system.drive(before.time), system.drive(after.time)
-    for item in system.items if system.pushed else ():
-        exerted = item.exerted((before.u, then), before.v) + item.exerted((after.u, now), after.v)
-        done += 0.5 * exerted.sum(axis=0) @ (item.place(*now) - item.place(*then))
+    for one in system.contacts if system.pushed else ():
+        exerted = one.exerted((before.u, then), before.v) + one.exerted((after.u, now), after.v)
+        done += 0.5 * exerted.sum(axis=0) @ (one.obstacle.place(*now) - one.obstacle.place(*then))
     return done
 
 
@@ -52,21 +52,22 @@ def prescribed_kinetic(system: System, state: State) -> float:
 
 
 def obstacle_work(system: System, start: State, end: np.ndarray, middle: float) -> float:
-    """Return the work [J] of the bodies of items in a step of the conserving midpoint rule."""
+    """Return the work [J] of the obstacles in a step of the conserving midpoint rule."""
     done, (since, drive) = 0.0, system.ends(start, middle)
     rate = (end - start.u) / (2.0 * (middle - start.time))
-    for item in system.items:
+    for one in system.contacts:
         force = np.zeros_like(end)
-        item.add_force((end, drive), force, since)
-        item.add_resistance((0.5 * (start.u + end), system.drive(middle)), rate, force)
-        done -= force.sum(axis=0) @ (item.place(*drive) - item.place(*since[1]))
+        one.add_force((end, drive), force, since)
+        one.add_resistance((0.5 * (start.u + end), system.drive(middle)), rate, force)
+        done -= force.sum(axis=0) @ (one.obstacle.place(*drive) - one.obstacle.place(*since[1]))
     return float(done)
 
 
 def obstacle_power(system: System, state: State) -> float:
-    """Return the power [W] of the moving bodies of items."""
+    """Return the power [W] of the moving obstacles."""
     at = state.u, system.drive(state.time)
-    return float(sum(one.exerted(at, state.v).sum(0) @ one.velocity(state.time) for one in system.items))
+    bodies = ((one.exerted(at, state.v).sum(axis=0), one.obstacle) for one in system.contacts)
+    return float(sum(force @ body.velocity(state.time) for force, body in bodies))
 
 
 def natural_work(system: System, u: np.ndarray, then: float, now: float) -> float:

@@ -1,6 +1,6 @@
 """The `Solution` of a static solve, from the end of its path."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from lumped.actuators import Drive
 from lumped.calibration import Calibration
-from lumped.contact import Contact, middle
+from lumped.cell_surface import middle
 from lumped.lattice import Lattice
 from lumped.statics.balance import balance
 from lumped.statics.fields import LatticeMesh, field_mesh
@@ -38,11 +38,11 @@ def solution(
     if coupling is not None:
         reactions |= coupling.reactions(exerted)
     at = u, Drive(state.load_factor)
-    reactions |= {item.name: item.exerted(at).sum(axis=0) for item in problem.items}
+    reactions |= {item.name: item.exerted(at).sum(axis=0) for item in problem.contacts}
     contacts = {item.name: item.report(at) for item in problem.contacts}
     pressures = [pressure for _, pressure in contacts.values()]
     pressed = {"contact_pressure": np.sum(pressures, axis=0)} if contacts else {}
-    touching = [item for item in problem.contacts if contacts[item.name][0].points]
+    curved = any(item.bent and contacts[item.name][0].points for item in problem.contacts)
     return Solution(
         model="lumped",
         label=f"lumped {calibration.title}" + (", linear" if linear else ""),
@@ -52,7 +52,7 @@ def solution(
         iterations=path.factorisations,
         setup_seconds=seconds[0],
         solve_seconds=seconds[1],
-        sample=partial(_sample, touching, lattice, u),
+        sample=partial(_sample, lattice, u, curved),
         reactions=reactions,
         energies=energies,
         mesh=LatticeMesh(partial(field_mesh, assembly, u, on_masses, state.load_factor, linear, pressed)),
@@ -67,8 +67,8 @@ def solution(
     )
 
 
-def _sample(touching: Sequence[Contact], lattice: Lattice, u: np.ndarray, points: np.ndarray) -> np.ndarray:
-    return middle(touching, lattice, u, points)[0]
+def _sample(lattice: Lattice, u: np.ndarray, curved: bool, points: np.ndarray) -> np.ndarray:
+    return middle(lattice, points, u, curved)[0]
 
 
 def _equilibrium_forces(problem: Problem, state: LatticeState) -> tuple[np.ndarray, dict[str, float]]:

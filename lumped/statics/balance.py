@@ -33,7 +33,7 @@ def balance(
     mass = None if cells is None else float((cells.per_area * lattice.cell_areas).sum())
     force = sum(reactions.values(), share * (dead_force(problem.scene, mass) + followers))
     held = np.where(problem.constraints.held[:n], exerted[:n], 0.0)
-    acting = sum((item.exerted((at, Drive(share))) for item in problem.items), external)
+    acting = sum((item.exerted((at, Drive(share))) for item in problem.contacts), external)
     arms = places.T @ (held + acting[:n])  # Σ x f, whose antisymmetric part is Σ x × f
     moment = np.array([arms[1, 2] - arms[2, 1], arms[2, 0] - arms[0, 2], arms[0, 1] - arms[1, 0]])
     if coupling is not None:

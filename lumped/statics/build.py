@@ -77,5 +77,5 @@ def build_problem(
     if not constraints.transform.shape[1]:
         grid = "×".join(str(n) for n in assembly.lattice.grid)
         raise BadInput(f"grid = {grid}: the supports hold every mass; take a finer one")
-    items = tuple(Contact(scene, assembly, *obstacle) for obstacle in scene.named_obstacles().items())
-    return Problem(scene, assembly, constraints, Loads(scene, assembly), items)
+    contacts = tuple(Contact(scene, assembly, *obstacle) for obstacle in scene.named_obstacles().items())
+    return Problem(scene, assembly, constraints, Loads(scene, assembly), contacts)

@@ -8,6 +8,7 @@ state contains its residual. Displacements and forces are (n, 3) [m], [N].
 """
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -16,8 +17,8 @@ import scipy.sparse as sp
 
 from lumped.actuators import Drive
 from lumped.assembly import Assembly
-from lumped.contact import Contact, middle
-from lumped.items import Deformed, LatticeItem
+from lumped.cell_surface import middle
+from lumped.contact import Contact, Deformed
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
 from lumped.springs.all_families import Stresses, Survey
@@ -84,7 +85,7 @@ class Problem(Structure[LatticeState, Residual]):
     """A scene's lattice under supports and loads, which grow with the load factor λ, with the solver of its
     linear systems, given by blocks (b, 3, 3).
 
-    size: the sheet's longer side [m]; items: obstacles (`lumped.items`); symmetric: whether all forces have a
+    size: the sheet's longer side [m]; contacts: with obstacles; symmetric: whether all forces have a
     potential; descends: whether stable equilibria are minima of an energy of the free unknowns.
     """
 
@@ -94,11 +95,10 @@ class Problem(Structure[LatticeState, Residual]):
         assembly: Assembly,
         constraints: Constraints,
         loads: Loads,
-        items: tuple[LatticeItem, ...] = (),
+        contacts: Sequence[Contact] = (),
     ):
         self.scene, self.assembly, self.constraints, self.loads = scene, assembly, constraints, loads
-        self.items, self.size, self.limits = items, max(scene.sheet.lengths), LIMITS
-        self.contacts = [item for item in items if isinstance(item, Contact)]
+        self.contacts, self.size, self.limits = contacts, max(scene.sheet.lengths), LIMITS
         self.symmetric = self.conservative = assembly.conservative and loads.conservative
         self.prestrained, driving = assembly.natural is not None, 0.0
         if self.prestrained:  # often the only load
@@ -108,7 +108,7 @@ class Problem(Structure[LatticeState, Residual]):
         self.descends = self.symmetric and self.multipliers == 0
         self._free = constraints.transform_arrays
         self._equilibrium = constraints.held, self._free, driving
-        self._others = items or coupling is not None or loads.follow
+        self._others = contacts or coupling is not None or loads.follow
         if coupling is None:
             self.system = constraints.reduced(assembly.pattern, self.symmetric)
         else:
@@ -140,8 +140,8 @@ class Problem(Structure[LatticeState, Residual]):
         else:
             blocks = springs.tangent(u, stresses, extrapolated=stresses is not None)
         self.loads.add_tangent(u, load_factor, blocks)
-        for item in self.items:
-            item.add_tangent((u, drive), 1.0, blocks, definite)
+        for one in self.contacts:
+            one.add_tangent((u, drive), 1.0, blocks, definite)
         if self.assembly.coupling is not None:
             self.assembly.coupling.add_tangent(u, drive, self.assembly.coupling_slots, blocks)
         return blocks
@@ -167,25 +167,25 @@ class Problem(Structure[LatticeState, Residual]):
         return energy + self._add_others(u, Drive(load_factor), force), force
 
     def _add_others(self, u: np.ndarray, drive: Drive, force: np.ndarray) -> float:
-        """Add the internal force of actuators and items; return their energy [J]."""
-        energy = sum(item.add_force((u, drive), force) for item in self.items)
+        """Add the internal force of actuators and obstacles; return their energy [J]."""
+        energy = sum(one.add_force((u, drive), force) for one in self.contacts)
         if self.assembly.coupling is not None:
             energy += self.assembly.coupling.add_force(u, drive, force)
         return energy
 
     def survey(self, u: np.ndarray, load_factor: float) -> Survey:
-        """Return the springs' energies and largest strain, and all items' energy as "contact"."""
+        """Return the springs' energies and largest strain, and the energy of contact with all obstacles."""
         survey = self.assembly.at(load_factor).survey(u)
-        if self.items:
+        if self.contacts:
             at, force = (u, Drive(load_factor)), np.zeros_like(u)
-            survey.energies["contact"] = sum(item.add_force(at, force) for item in self.items)
+            survey.energies["contact"] = sum(one.add_force(at, force) for one in self.contacts)
         return survey
 
     def middle(self, u: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, MidSurface]:
         """Return displacements (p, 3) [m] at plan points (p, 2) of the surface that obstacles touch at u
         under full load, and the map of their changes. Raises BadInput off the sheet."""
-        touching = [one for one in self.contacts if one.touches((u, Drive(1.0)))]
-        return middle(touching, self.assembly.lattice, u, np.asarray(points, dtype=float))
+        curved = any(one.bent and one.report((u, Drive(1.0)))[0].points for one in self.contacts)
+        return middle(self.assembly.lattice, np.asarray(points, dtype=float), u, curved)
 
     def external(self, u: np.ndarray, load_factor: float) -> np.ndarray:
         """Return the external force λ f(u)."""
@@ -198,7 +198,7 @@ class Problem(Structure[LatticeState, Residual]):
 
     def residual(self, u: np.ndarray, load_factor: float) -> Residual:
         """Return the residual at u."""
-        others = self.assembly.coupling is not None or self.prestrained or self.items
+        others = self.assembly.coupling is not None or self.prestrained or self.contacts
         flat = not (others or u.any())  # springs are at rest
         internal = np.zeros(u.shape) if flat else self.internal(u, load_factor)[1]
         return self._residual(internal, u, load_factor)
@@ -239,7 +239,7 @@ class Problem(Structure[LatticeState, Residual]):
             by_row = assembly.all_families.link_stiffness * largest + assembly.coupling.carried()
             carried = float(np.linalg.norm(by_row))
         at = self.configuration(state, state.load_factor)
-        return assembly.rounding * carried + sum(item.rounding(at) for item in self.items)
+        return assembly.rounding * carried + sum(one.rounding(at) for one in self.contacts)
 
     def gap(self, state: LatticeState, load_factor: float) -> float:
         moved, lattice = self._support_motion(state, load_factor), self.assembly.lattice

@@ -201,7 +201,7 @@ def solve_from_best_start(
         raise BadInput(f"near: shape {near.shape}; the lattice needs {problem.loads.dead.shape}")
     if problem.assembly.coupling is not None:  # its unknowns depend on the grid
         return solve_path(problem, progress=progress)
-    may_start_coarser = near is None and not problem.items  # contact points differ on another grid
+    may_start_coarser = near is None and not problem.contacts  # contact points differ on another grid
     large = may_start_coarser and problem.descends and problem.system.unknowns > FROM
     springs = coarser_springs(problem.scene, calibration) if large else None
     if springs is None:

@@ -94,7 +94,7 @@ def crossings(places: np.ndarray, start: np.ndarray, way: float) -> int:
 
 def sunk(scene: Scene, places: np.ndarray) -> tuple[float, float]:
     """Return the depth of the surface in the obstacle [m], and the allowed one: a tenth of the thickness, and
-    the error of a depth that is biquadratic over half a radius of a sheet on a ball, below R/500."""
+    the error of a depth that is biquadratic over a third of a radius of a sheet on a ball, below R/500."""
     (obstacle,) = scene.obstacles
     centre = obstacle.place()
     half = 0.5 * scene.sheet.thickness

@@ -72,10 +72,10 @@ def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) ->
     limits = [step_limit(system, u, FOREVER) for u in shapes]
     highest = max(limit.frequency for limit in limits)
     resistance = max(2.0 * limit.damping_ratio * limit.frequency for limit in limits)
-    proportional, safety = system.damping.proportional, TOUCHING if system.items else SAFETY
+    proportional, safety = system.damping.proportional, TOUCHING if system.contacts else SAFETY
     rate = system.scene.material.damping_rate if proportional else None
     advised = {name: safety * limit_of(name, highest, resistance, rate) for name in LOOPS}
-    exact = proportional and not system.items
+    exact = proportional and not system.contacts
     return StableSteps(advised, highest / (2.0 * np.pi), lowest, safety, exact)
 
 

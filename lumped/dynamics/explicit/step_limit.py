@@ -89,25 +89,25 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
     """
     rest = np.zeros_like(u)
     stiffness = system.matrix(u, rest, time, 0.0, 0.0, 1.0)
-    touching = sum(item.stiffest(system.lattice_mass) for item in system.items)
+    touching = sum(one.stiffest(system.lattice_mass) for one in system.contacts)
     frequency = math.sqrt(max(_largest_eigenvalue(system, stiffness), 0.0) + touching)
     ratio = 0.0
     if system.resists:
         damping = system.matrix(u, rest, time, 0.0, 1.0, 0.0)
         ratio = _largest_eigenvalue(system, damping) / (2.0 * frequency) if damping.any() else 0.0
     exact = system.damping.proportional
-    safety = TOUCHING if system.items else SAFETY
+    safety = TOUCHING if system.contacts else SAFETY
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact, safety)
 
 
-def soften_items(system: System) -> None:
-    """Set the stiffness in motion of a system's items, by the springs' highest frequency."""
-    if system.items:
+def soften_contacts(system: System) -> None:
+    """Set the stiffness in motion of a system's contacts, by the springs' highest frequency."""
+    if system.contacts:
         rest = system.prescribed.place(0.0)
         springs = system.assembly.tangent(rest)
         squared = _largest_eigenvalue(system, springs)
-        for item in system.items:
-            item.move_freely(system.lattice_mass, squared)
+        for one in system.contacts:
+            one.move_freely(system.lattice_mass, squared)
 
 
 def _largest_eigenvalue(system: System, blocks: np.ndarray) -> float:

@@ -39,7 +39,7 @@ class Verlet(Integrator):
     def __init__(self, system: System, step: float):
         super().__init__(system, step)
         _require_no_chains(system)
-        one_by_one = not system.packed or system.items or system.damping.drag.coefficient > 0.0
+        one_by_one = not system.packed or system.contacts or system.damping.drag.coefficient > 0.0
         self._at_places = None if one_by_one or system.shared_mass else FlatSystem(system)
         if self._at_places is not None:
             self._at_places.compile()
@@ -77,7 +77,7 @@ class Verlet(Integrator):
             before, resisted = system.damping_force(state.u, state.v, state.time)
             taken = 0.5 * h * (before + power)
             acceleration = system.accelerate(force - resisting)
-            if system.items:
+            if system.contacts:
                 way = u - state.u - h * h / 6.0 * (acceleration - state.a)
                 of_ends = h * ((resisted * state.v).sum() + (resisting * v).sum())
                 taken += 0.5 * float(((resisted + predicted) * way).sum() - of_ends)

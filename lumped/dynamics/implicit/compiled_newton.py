@@ -59,7 +59,7 @@ class Compiled(NamedTuple):
 def compiled_of(system: System) -> Compiled | None:
     """Return the iteration of a system whose forces are all compiled, with its factors in a band."""
     problem, band = system.problem, system.problem.system.band
-    plain = system.coupling is None and system.packed and not system.items
+    plain = system.coupling is None and system.packed and not system.contacts
     if band is None or not plain or not problem.conservative or problem.loads.follow:
         return None
     free = csr_arrays(system.transform[:, band.order])

@@ -84,7 +84,7 @@ class Esdirk(Integrator):
         if self._largest == 0.0:
             self._set_first_step(state)
         state, at_most = self._from_kink(state, at_most)
-        reached, began = self._largest, self._energies(state) if self.system.items else []
+        reached, began = self._largest, self._energies(state) if self.system.contacts else []
         # the last correction [m] of the step's equations
         enough = (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._allowed_error
 
@@ -94,7 +94,7 @@ class Esdirk(Integrator):
             error = h * largest(ERRORS, step.stages.v)
             error = max(error, self._largest * step.error_of_branches())
             reached = max(self._largest, largest(END, step.stages.u))
-            if self.system.items:  # which are touched within steps
+            if self.system.contacts:  # which are touched within steps
                 advance = self._advance(state, step)
                 now = self._energies(advance.state)
                 self._energy = max(self._energy, *map(abs, now))

@@ -58,7 +58,7 @@ class Sided:
         made = [in_motion(*end, weights) for end in reversed(ends)]
         self.systems, states = zip(*made, strict=True)
         places = [system.problem.prescribed(1.0) for system in self.systems]
-        if self.systems[0].items or not np.array_equal(*places):
+        if self.systems[0].contacts or not np.array_equal(*places):
             raise BadInput(f"sensitivities: {name}: not by positions of supports, nor with obstacles")
         self.half, self.largest, self.memories = 0.5 * over, 0.0, [state.memory for state in states]
         high_state, low_state = (np.array([state.u, state.v, state.a]) for state in states)

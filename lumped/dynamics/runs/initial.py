@@ -5,7 +5,7 @@ import scipy.linalg
 import scipy.sparse as sp
 
 from lumped.calibration import Calibration
-from lumped.dynamics.explicit.step_limit import soften_items
+from lumped.dynamics.explicit.step_limit import soften_contacts
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.statics.solver import build_problem, stable_equilibrium
@@ -40,7 +40,7 @@ def in_motion(scene: Scene, calibration: Calibration, weights: Weights = "tribut
     """
     moving = let_go(scene)
     system = System(moving, build_problem(moving, calibration, weights))
-    soften_items(system)
+    soften_contacts(system)
     return system, initial_state(system, calibration, weights, scene)
 
 

@@ -1,7 +1,7 @@
 """Rows of numbers from the samples of a run: energies, probes, reactions, actuator forces; largest strains,
 invalid states, and the place of the fastest mass.
 
-Systems without chains, branches and items have all rows of a step in one compiled call; others one call a
+Systems without chains, branches and obstacles have all rows of a step in one compiled call; others one call a
 row.
 """
 
@@ -53,11 +53,11 @@ class LatticeObserver:
         zero = np.zeros((system.assembly.pattern.size, 3))
         actuators = system.coupling.wrenches(zero, zero) if system.coupling is not None else {}
         holders = system.coupling.reactions(zero) if system.coupling is not None else {}
-        exerting = [*self._supports, *(item.name for item in system.items), *holders]
+        exerting = [*self._supports, *(item.name for item in system.contacts), *holders]
         self.columns = columns_of(scene, exerting, actuators)
         self._width = width(self.columns)
         self._observed: Observed | None = None
-        if system.packed and system.coupling is None and not system.items:
+        if system.packed and system.coupling is None and not system.contacts:
             masses = system.assembly.pattern.size
             probes, summed = csr_arrays(self._probes.matrix(masses)), system.problem.constraints.summed
             equations = system.forces, system.mass_rows, system.problem.loads.dead
@@ -115,7 +115,7 @@ class LatticeObserver:
         parts = [self._probes.of(u), *(reactions[edge] for edge in self._supports)]
         state = samples.state(i)
         at = u, system.drive(state.time)
-        parts.extend(item.exerted(at, state.v).sum(axis=0) for item in system.items)
+        parts.extend(item.exerted(at, state.v).sum(axis=0) for item in system.contacts)
         if system.coupling is not None:
             parts.extend(system.coupling.reactions(exerted).values())
             parts.extend(system.coupling.wrenches(u, exerted).values())

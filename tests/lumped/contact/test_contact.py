@@ -53,7 +53,7 @@ def item(request):
     problem = build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(11, 4, 2)))
     rng = np.random.default_rng(1)
     u = 0.01 * rng.normal(size=problem.loads.dead.shape) - [0.0, 0.0, 0.02]
-    return problem, problem.items[0], u, rng
+    return problem, problem.contacts[0], u, rng
 
 
 def applied(problem, blocks, step):
@@ -319,6 +319,5 @@ def test_drawn_sheet_is_not_walked_through(number):
 
 @pytest.mark.nightly
 def test_a_thousand_drawn_sheets():
-    """One is 2 µm deeper than allowed (docs/contact.md)."""
     faults = {number: found for number in range(1000) if (found := faults_of(number))}
-    assert faults.keys() == {484}, faults
+    assert not faults, faults

@@ -5,8 +5,8 @@ bar              kept where the error of a component is within it; at least 95 %
 expected error   kept where the true error is within a factor of two; at least 80 %, never three times it
 advice           kept where the error of the choice is within the tolerance; at least 95 %
 
-Of one kind of scenes the median may be larger, as orders are low where an obstacle touches or a point holds,
-and none need have an estimate.
+The median bar of a single kind of scenes may be larger, as orders are low where obstacles touch or points
+hold; estimates may be missing there.
 Components of one scene are kept or missed together, so that scenes, not components, are the sample: of n
 scenes with k of m kept each, p = Σ k/Σ m has the standard error √(n/(n − 1) Σ (k − p m)²)/Σ m (a ratio
 estimator: Cochran, Sampling Techniques, 1977, section 6.4).

@@ -36,7 +36,7 @@ def command(
         scenes (N): Scenes drawn, for bars half a minute of one processor each.
         seed (N): Seed of the scenes.
         model (NAMES): Bars of {REFERENCES}.
-        kind (NAMES): Scenes of the part kinds, bars and expected errors by what a scene has: {KINDS}.
+        kind (NAMES): Scenes of the part kinds, of {KINDS}: bars and expected errors.
         anew: Solve the stored scenes of expected errors again."""
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()
     with output.open() as out:

@@ -187,8 +187,8 @@ def _loads(
 def _features(
     random: np.random.Generator, edges: Edges, sheet: Sheet, material: Material, sag: float
 ) -> dict[str, Part]:
-    """Return what a scene of each kind has beside the weight. sag: of the middle in q a⁴/D, about; obstacles
-    are nearer."""
+    """Return the tables of a scene of each kind. sag: approximate deflection of the middle in q a⁴/D, the
+    largest distance of obstacles."""
     sides, short, h = sheet.lengths, min(sheet.lengths), sheet.thickness
     given, plan = material.model_dump(exclude_defaults=True), sheet.model_dump(exclude_defaults=True)
     per_area, bending = material.density * h, material.young * h**3 / (12.0 * (1.0 - material.poisson**2))

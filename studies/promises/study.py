@@ -5,10 +5,11 @@ bar      of a component of the displacement at a probe, from the answers on n, Â
          edges: a bar is about the mesh, not about the model. Components below `LEAST` of the largest
          displacement are rounding, and prescribed components have no error: neither counts. The rule that
          makes the bars was set on scenes of other seeds (14, 27 and 53)
-by kind  the same bars of the shell, and the expected error of a lattice (`comparisons.models.expected_error`)
-         beside the true one, both counted by what the scene has: the truth of both is the shell
 advice   the tolerance that a choice was requested for; the truth is the shell. The choice's time is
          compared with the cheapest of a dozen rows within the tolerance, all of whole sheets
+
+Of scenes of a kind (`studies.promises.scenes.KINDS`) bars of the shell and expected errors of a lattice
+(`comparisons.models.expected_error`) are counted by kind; the truth of both is the shell.
 
 A scene on which a model does not converge on every mesh is replaced by the next one drawn.
 """

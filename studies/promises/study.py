@@ -8,8 +8,8 @@ bar      of a component of the displacement at a probe, from the answers on n, Â
 advice   the tolerance that a choice was requested for; the truth is the shell. The choice's time is
          compared with the cheapest of a dozen rows within the tolerance, all of whole sheets
 
-Of scenes of a kind (`studies.promises.scenes.KINDS`) bars of the shell and expected errors of a lattice
-(`comparisons.models.expected_error`) are counted by kind; the truth of both is the shell.
+Bars of the shell and expected errors of a lattice (`comparisons.models.expected_error`) are also counted by
+the kind of scene (`studies.promises.scenes.KINDS`); the truth of both is the shell.
 
 A scene on which a model does not converge on every mesh is replaced by the next one drawn.
 """

@@ -1,5 +1,6 @@
 """`sheetbench live` in Chromium: from moving a slider to the lattice drawn, and to the shell's answer.
 
+    export PYTHONPATH=.:tests/helpers
     python benchmarks/live.py [SCENE] [--grid N] [--elements N] [--drags N] [--json FILE] [--picture FILE]
 
 The slider of Young's modulus is dragged by the mouse, a step at a time, each after the lattice and the shell
@@ -22,14 +23,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from browser import FLAGS, PROGRAMS
+from live_server import ANSWERED, until
 from playwright.sync_api import Page, sync_playwright
 
 from comparisons.live.panel import ELEMENTS
-
-FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-ANSWERED = (
-    "window.live !== undefined && live.shown.shell !== undefined && live.shown.shell.number === live.asked()"
-)
 
 
 def main() -> None:
@@ -45,7 +43,7 @@ def main() -> None:
     arguments = parser.parse_args()
     sizes = ("--grid", str(arguments.grid), "--elements", str(arguments.elements))
     with serving(arguments.scene, *sizes) as address, sync_playwright() as playwright:
-        program = shutil.which("chromium") or shutil.which("google-chrome")
+        program = next(filter(None, map(shutil.which, PROGRAMS)), None)
         browser = playwright.chromium.launch(executable_path=program, args=list(FLAGS))
         page = browser.new_page(viewport={"width": 1200, "height": 820})
         page.goto(address)
@@ -85,17 +83,11 @@ def drag(page: Page, steps: int, waiting: bool) -> tuple[list[float], list[float
     for step in range(1, steps + 1):
         page.mouse.move(middle + 4 * (12 - abs(step % 24 - 12)), y)
         if waiting:
-            until(page, ANSWERED)
+            until(page, f"{ANSWERED} && live.shown.shell.after")
             shells.append(page.evaluate("live.shown.shell.after"))
     page.mouse.up()
     until(page, ANSWERED)
-    return page.evaluate("live.latencies")[before:], [ms for ms in shells if ms is not None]
-
-
-def until(page: Page, expression: str) -> None:
-    """Wait for an expression to hold; the page's policy does not allow to wait within it."""
-    while not page.evaluate(expression):
-        page.wait_for_timeout(5)
+    return page.evaluate("live.latencies")[before:], shells
 
 
 @contextmanager

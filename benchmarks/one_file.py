@@ -18,10 +18,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import lumped
-from comparisons.cli import main as command_line
+import sheetbench as sb
 from comparisons.codes.onefile import program
-from sheetbench import scenes
 
+Run = tuple[Callable[[], float], Callable[[], object]]  # a clock of CPU time [s], and what it is to measure
+COMPILER = "gcc -O3 -march=native -ffast-math sheet.c loop.c -lm -o loop"
 LOOP = """#include <stdlib.h>
 #include "sheet.h"
 int main(int n, char **word) {
@@ -32,40 +33,25 @@ int main(int n, char **word) {
 """
 
 
-def compiled(texts: dict[str, str], folder: Path, name: str) -> Path:
-    """Return the program that takes so many steps."""
+def c_steps(texts: dict[str, str], folder: Path, steps: int) -> Run:
+    """Return the C file's steps, compiled."""
+    folder.mkdir()
     for file, text in (texts | {"loop.c": LOOP}).items():
         (folder / file).write_text(text, encoding="utf-8")
-    flags = ("-O3", "-march=native", "-ffast-math", "sheet.c", "loop.c", "-lm", "-o", name)
-    subprocess.run(["gcc", *flags], cwd=folder, check=True)
-    return folder / name
+    subprocess.run(COMPILER.split(), cwd=folder, check=True)
+    line = [str(folder / "loop"), str(steps)]
+    ended = resource.RUSAGE_CHILDREN
+    return lambda: resource.getrusage(ended).ru_utime, lambda: subprocess.run(line, check=True)
 
 
-def children() -> float:
-    """CPU time [s] of processes that have ended."""
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-
-
-def spent(clock: Callable[[], float], work: Callable[[], object]) -> float:
-    """CPU time [s] of what `work` does."""
-    began = clock()
-    work()
-    return clock() - began
-
-
-def mujoco_steps(grid: int, duration: float) -> Callable[[], None] | None:
-    """Return a function that steps MuJoCo's flex, None without MuJoCo."""
+def mujoco_steps(grid: int, duration: float) -> dict[str, Run]:
+    """Return MuJoCo's steps of its flex, nothing without MuJoCo."""
     try:
         import mujoco
     except ImportError:
-        return None
+        return {}
     with tempfile.TemporaryDirectory() as folder:
-        try:
-            command_line(
-                ["calibrate", "two-edges-clamped", "--grid", f"{grid}", "--for", "mujoco", "--out", folder]
-            )
-        except SystemExit as end:
-            assert not end.code
+        sb.calibrate("two-edges-clamped", grid=grid, for_="mujoco", out=folder)
         model = mujoco.MjModel.from_xml_path(f"{folder}/mujoco.xml")
     data = mujoco.MjData(model)
 
@@ -74,7 +60,7 @@ def mujoco_steps(grid: int, duration: float) -> Callable[[], None] | None:
         for _ in range(round(duration / model.opt.timestep)):
             mujoco.mj_step(model, data)
 
-    return run
+    return {"MuJoCo, flex": (time.process_time, run)}
 
 
 def main() -> None:
@@ -83,32 +69,32 @@ def main() -> None:
     parser.add_argument("grid", nargs="?", type=int, default=9)
     parser.add_argument("--seconds", type=float, default=0.5)
     asked = parser.parse_args()
-    scene = scenes.load("two-edges-clamped")
+    scene = sb.load("two-edges-clamped")
     scene = scene.replace(material=scene.material.replace(damping_rate=8.0))
     springs = lumped.calibrate(scene.sheet, scene.material, asked.grid)
-    runs: dict[str, tuple[Callable[[], float], Callable[[], object]]] = {}
+    of = {name: program(scene, springs, name, 20) for name in ("double", "single")}
+    step = of["double"].step
+    count = round(asked.seconds / step)
+    system, start = lumped.in_motion(scene, springs)
+    method = lumped.INTEGRATORS["verlet"](system, step)
+
+    def verlet() -> None:
+        state, left = start, count
+        while left:
+            advance = method.march(state, step, left)
+            state, left = advance.state, left - advance.steps
+
     with tempfile.TemporaryDirectory() as place:
-        step = program(scene, springs, steps=20).step
+        runs: dict[str, Run] = {}
         if shutil.which("gcc"):
-            for precision in ("double", "single"):
-                own = compiled(program(scene, springs, precision, 20).texts, Path(place), precision)
-                line = [str(own), str(round(asked.seconds / step))]
-                runs[f"C, {precision}"] = children, lambda line=line: subprocess.run(line, check=True)
-        system, start = lumped.in_motion(scene, springs)
-
-        def verlet() -> None:
-            state, left = start, round(asked.seconds / step)
-            method = lumped.INTEGRATORS["verlet"](system, step)
-            while left:
-                advance = method.march(state, step, left)
-                state, left = advance.state, left - advance.steps
-
-        runs["verlet"] = time.process_time, verlet
-        if (other := mujoco_steps(asked.grid, asked.seconds)) is not None:
-            runs["MuJoCo, flex"] = time.process_time, other
-        for _, work in runs.values():  # compiled, loaded
-            work()
-        best = {name: min(spent(*run) for _ in range(3)) for name, run in runs.items()}
+            runs = {f"C, {name}": c_steps(p.texts, Path(place, name), count) for name, p in of.items()}
+        runs |= {"verlet": (time.process_time, verlet), **mujoco_steps(asked.grid, asked.seconds)}
+        best = dict.fromkeys(runs, float("inf"))
+        for turn in range(4):  # the first compiles and loads
+            for name, (clock, work) in runs.items():
+                began = clock()
+                work()
+                best[name] = min(best[name], clock() - began if turn else float("inf"))
     print(f"{asked.grid} x {asked.grid}, steps of {1e3 * step:.3g} ms: seconds of motion a CPU second")
     for name, cpu in best.items():
         print(f"{name:14} {asked.seconds / cpu:8.2f}")

@@ -3,18 +3,11 @@
 import sys
 
 import fmpy
-from fmpy.fmi3 import FMU3Slave
 
 path, wanted, h = sys.argv[1], -0.010, 1e-3  # m, s
 about = fmpy.read_model_description(path)
 number = {v.name: v.valueReference for v in about.modelVariables}
-unit = FMU3Slave(
-    guid=about.guid,
-    unzipDirectory=fmpy.extract(path),
-    modelIdentifier=about.coSimulation.modelIdentifier,
-    instanceName="sheet",
-)
-unit.instantiate()
+unit = fmpy.instantiate_fmu(fmpy.extract(path), about)
 unit.enterInitializationMode()
 unit.exitInitializationMode()
 proportional, integral, summed, time = 1.0, 20.0, 0.0, 0.0  # N/m, N/(m s)

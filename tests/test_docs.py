@@ -242,6 +242,4 @@ def test_the_shells_stored_answers_are_the_shells():
     assert stored.keys() == {f"{name} {1e3 * h:g}" for name in made["SCENES"] for h in made["THICKNESSES"]}
     shell = sb.solve(made["scene_of"]("one-edge-clamped", 0.004), "shell", elements=8)
     found = list(shell.probes.values())[-1][2]
-    assert stored["one-edge-clamped 4"][made["LOADS"].index(1.0)] == pytest.approx(found, rel=1e-6)
-    script = (ROOT / "docs" / "try" / "try.js").read_text(encoding="utf-8")
-    assert str(list(made["LOADS"])).replace(".0", "") in script
+    assert stored["one-edge-clamped 4"]["1"] == pytest.approx(found, rel=1e-6)

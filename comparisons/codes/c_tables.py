@@ -13,19 +13,19 @@ from sheetbench.scenes.objects.tables import OverTime
 
 PRECISIONS: dict[str, tuple[str, Any]] = {"double": ("double", np.float64), "single": ("float", np.float32)}
 BRACES = str.maketrans("[]", "{}", " ")
+NEVER, LATE = 1e300, 1e-9  # s; share of a curve's length by which a time may be late, by rounding
 WHOLE = {1: "unsigned char", 2: "unsigned short", 4: "int"}  # types by their bytes
 
 
 class Tables:
     """Tables in C. lines: of source; sizes: lengths of tables, by the plural of their names, and other whole
-    numbers; knots, starts: of curves, {from, coefficients}, and the first of each."""
+    numbers; knots: of curves, one behind another, {since when, from, coefficients}."""
 
     def __init__(self, precision: str):
         self.real, self.rounded = PRECISIONS[precision]
         self.lines: list[str] = []
         self.sizes: dict[str, int] = {}
         self.knots: list[list[float]] = []
-        self.starts = [0]
 
     def add(self, name: str, values: Any, kind: str = "", storage: str = "static ") -> None:
         """Add a table, of the smallest type of whole numbers unless given one."""
@@ -55,16 +55,17 @@ class Tables:
         self.add(f"{name}_ROW", rows[first])
         self.add(f"{name}_OF", which.ravel())
 
-    def curve(self, table: OverTime | None, key: str) -> int:
-        """Return the number of the curve of a table's first component, −1 without a table."""
+    def curves(self, table: OverTime | None, key: str, width: int) -> list[int]:
+        """Return the first knot of each component of a table, −1 without a table."""
         if table is None:
-            return -1
-        first, times = len(self.starts) - 1, np.array([table.time[0], *table.time])
+            return [-1] * width
+        times, firsts = np.array([table.time[0], *table.time]), []
+        since = np.array([NEVER, *(times[1:] - LATE * np.ptp(times))])  # no curve goes on to the next one
         pieces = table.over_time(key).pieces  # before, between and after the samples
         for of in np.reshape(pieces, (*pieces.shape[:2], -1)).T:
-            self.knots += np.pad(np.column_stack([times, of]), ((0, 0), (0, 4 - of.shape[1]))).tolist()
-            self.starts.append(len(self.knots))
-        return first
+            firsts.append(len(self.knots))
+            self.knots += np.pad(np.column_stack([since, times, of]), ((0, 0), (0, 4 - of.shape[1]))).tolist()
+        return firsts
 
 
 def identifiers(names: Iterable[str]) -> list[str]:

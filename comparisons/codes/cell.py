@@ -18,7 +18,7 @@ The meshes that cloth and shell codes are given have cells by name.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import sqrt
@@ -125,19 +125,24 @@ class Cell:
     def _hinges(self) -> list[tuple[Place, ...]]:
         """Return the ends of each shared edge and the corners opposite it, each edge once; none without
         hinges."""
-        if not self.hinge:
-            return []
-        sides: dict[tuple[Place, ...], list[Place]] = {}
-        for triangle in self.triangles:
-            for a, b in combinations(triangle, 2):
-                (opposite,) = (p for p in triangle if p not in (a, b))
-                first, second = sorted((a, b))
-                key, i, j = ((first[0], 0, 0), _moved(second, first)), first[1], first[2]
-                sides.setdefault(key, []).append(_moved(opposite, (0, i, j)))
-        for edge, corners in sides.items():
+        found = sides_of(self.triangles if self.hinge else ())
+        for edge, corners in found.items():
             if len(corners) != 2:
                 raise BadInput(f"{self.name}: edge {list(edge)}: {len(corners)} triangles; a hinge has two")
-        return [(*edge, *corners) for edge, corners in sides.items()]
+        return [(*edge, *first, *second) for edge, (first, second) in found.items()]
+
+
+def sides_of(elements: Iterable[Sequence[Place]]) -> dict[tuple[Place, Place], list[list[Place]]]:
+    """Return every two corners of elements, each once, the first in the cell itself, with the other corners
+    of each element that has both."""
+    found: dict[tuple[Place, Place], list[list[Place]]] = {}
+    for element in elements:
+        for a, b in combinations(element, 2):
+            first, second = sorted((a, b))
+            others = (place for place in element if place not in (a, b))
+            start, end, *rest = [(n, i - first[1], j - first[2]) for n, i, j in (first, second, *others)]
+            found.setdefault((start, end), []).append(rest)
+    return found
 
 
 def from_toml(path: Path) -> Cell:
@@ -157,10 +162,6 @@ def from_toml(path: Path) -> Cell:
         raise BadInput(f"{path}: not a cell: {foreign(error)}") from None
 
 
-def _moved(place: Place, origin: Place) -> Place:
-    return place[0], place[1] - origin[1], place[2] - origin[2]
-
-
 def _area(corners: np.ndarray) -> float:
     (ax, ay, _), (bx, by, _) = corners[1] - corners[0], corners[2] - corners[0]
     return float(0.5 * (ax * by - ay * bx))
@@ -172,38 +173,31 @@ def _spring(ends: np.ndarray) -> np.ndarray:
     return np.outer(row, row)
 
 
+def _lame(slopes: np.ndarray, size: float) -> np.ndarray:
+    """Return the matrices of (∇·u)² and 2 e:e over a size, (2, 3 n, 3 n). slopes: of the shares of n nodes
+    along x, y and z, (n, 3); those along z are 0 in a plane, whose e then is in it."""
+    axes = np.diag(slopes.any(axis=0).astype(float))
+    turned = np.einsum("nl,mj->njml", slopes, slopes).reshape(2 * [slopes.size])
+    return size * np.array([np.outer(slopes, slopes), np.kron(slopes @ slopes.T, axes) + turned])
+
+
 def _triangle(corners: np.ndarray) -> dict[str, np.ndarray]:
     """Return the matrices of λ (∇·u)² + 2 μ e:e over the area; corners at one height."""
     inverse = np.linalg.inv((corners[1:, :2] - corners[0, :2]).T)
-    slopes = np.vstack([-inverse.sum(axis=0), inverse])  # (corner, x or y)
-    strain = np.zeros((3, 9))  # xx, yy, 2xy
-    strain[0, 0::3], strain[1, 1::3] = slopes.T
-    strain[2, 0::3], strain[2, 1::3] = slopes[:, 1], slopes[:, 0]
-    volume = strain[0] + strain[1]
-    size = abs(_area(corners))
-    shear = strain.T @ np.diag([2.0, 2.0, 1.0]) @ strain
-    return {"lambda_h": size * np.outer(volume, volume), "mu_h": size * shear}
+    slopes = np.pad(np.vstack([-inverse.sum(axis=0), inverse]), ((0, 0), (0, 1)))
+    return dict(zip(("lambda_h", "mu_h"), _lame(slopes, abs(_area(corners))), strict=True))
 
 
 def _brick(corners: np.ndarray) -> dict[str, np.ndarray]:
     """Return the matrices of λ (∇·u)² + 2 μ e:e over the volume, by 2 × 2 × 2 points."""
-    volume, shear = np.zeros((24, 24)), np.zeros((24, 24))
+    total = np.zeros((2, 24, 24))
     for point in CORNERS / 3.0**0.5:
         shares = (1.0 + CORNERS * point) / 2.0  # (corner, direction)
         others = [np.prod(np.delete(shares, q, axis=1), axis=1) for q in range(3)]
         rates = 0.5 * CORNERS * np.column_stack(others)
         jacobian = corners.T @ rates
-        slopes = rates @ np.linalg.inv(jacobian)
-        strain = np.zeros((6, 24))  # xx, yy, zz, 2yz, 2zx, 2xy
-        for q in range(3):
-            r, t = (q + 1) % 3, (q + 2) % 3
-            strain[q, q::3] = slopes[:, q]
-            strain[3 + q, r::3], strain[3 + q, t::3] = slopes[:, t], slopes[:, r]
-        size = abs(float(np.linalg.det(jacobian)))
-        grown = strain[:3].sum(axis=0)
-        volume += size * np.outer(grown, grown)
-        shear += size * strain.T @ np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0]) @ strain
-    return {"lambda": volume, "mu": shear}
+        total += _lame(rates @ np.linalg.inv(jacobian), abs(float(np.linalg.det(jacobian))))
+    return dict(zip(("lambda", "mu"), total, strict=True))
 
 
 def _hinge(points: np.ndarray, weight: Callable[[float, float], float]) -> np.ndarray:
@@ -273,20 +267,21 @@ def cell_of(
 _Parts = tuple[np.ndarray, np.ndarray, tuple[tuple[Place, ...], ...]]
 
 
-def _squares(alternate: bool) -> _Parts:
-    """Return squares with one diagonal; alternate: the other one in every second square."""
-    side = 2 if alternate else 1
+def cut_squares(number: np.ndarray, odd: np.ndarray) -> Iterator[tuple[int, int, int]]:
+    """Yield the triangles of the squares between numbered nodes (m, n), each square cut by one diagonal, or
+    by the other where `odd` (m − 1, n − 1)."""
+    for (i, j), other in np.ndenumerate(odd):
+        a, d, b, c = number[i : i + 2, j : j + 2].ravel().tolist()
+        yield from ((a, b, d), (b, c, d)) if other else ((a, b, c), (a, c, d))
 
-    def at(i: int, j: int) -> Place:
-        return (i % side) * side + j % side, i // side, j // side
 
-    triangles: list[tuple[Place, ...]] = []
-    for i in range(side):
-        for j in range(side):
-            a, b, c, d = at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)
-            triangles += [(a, b, d), (b, c, d)] if (i + j) % 2 else [(a, b, c), (a, c, d)]
-    nodes = np.array([[i, j] for i in range(side) for j in range(side)], dtype=float)
-    return side * np.eye(2), nodes, tuple(triangles)
+def _squares(side: int) -> _Parts:
+    """Return squares with one diagonal, with the other one in every second square of a side of two."""
+    lines = range(side + 1)
+    places = [(i % side * side + j % side, i // side, j // side) for i in lines for j in lines]
+    number, (i, j) = np.arange(len(places)).reshape(side + 1, -1), np.indices((side, side))
+    triangles = (tuple(places[n] for n in corners) for corners in cut_squares(number, (i + j) % 2 == 1))
+    return side * np.eye(2), np.column_stack([i.ravel(), j.ravel()]).astype(float), tuple(triangles)
 
 
 def _equilateral() -> _Parts:
@@ -309,8 +304,8 @@ def _unstructured() -> _Parts:
 
 
 MESHES: Mapping[str, Callable[[], _Parts]] = {
-    "one-diagonal": lambda: _squares(alternate=False),
-    "alternate-diagonals": lambda: _squares(alternate=True),
+    "one-diagonal": lambda: _squares(1),
+    "alternate-diagonals": lambda: _squares(2),
     "equilateral": _equilateral,
     "unstructured": _unstructured,
 }

@@ -10,7 +10,7 @@ from math import isfinite
 from typing import Annotated, Any
 
 from comparisons.codes.cell import Cell, cell_of
-from comparisons.codes.coefficients import Moduli, best_hinge, limit_error, moduli_of, nearest
+from comparisons.codes.coefficients import Moduli, best_hinge, limit_errors, moduli_of, nearest
 from comparisons.codes.table import CODES, Code, Numbers
 from fem_reference.surface.materials import section_of
 from sheetbench.answers.answer import Answer
@@ -219,10 +219,11 @@ def homogenise(
         raise BadInput(f"--coefficient {text}: a sheet of these cells has a negative stiffness")
     error_left, nearest_values, missing = None, None, ""
     try:
-        error_left = limit_error(scene, moduli_of(cell, values))
+        error_of = limit_errors(scene)
+        error_left = error_of(moduli_of(cell, values))
         if not fixed and (best := best_hinge(scene, cell, values)):
             nearest_values, values = (values, error_left), values | {"hinge": best}
-            error_left = limit_error(scene, moduli_of(cell, values))
+            error_left = error_of(moduli_of(cell, values))
     except NoEquilibrium as error:
         error_left, nearest_values, missing = None, None, str(error)
     return CellModuli(scene, cell, values, error_left, missing, moduli_of(cell, values), nearest_values)

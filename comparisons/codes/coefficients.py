@@ -19,14 +19,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations, count
+from itertools import count
 
 import numpy as np
 from scipy.linalg import block_diag, null_space
 from scipy.optimize import brentq, least_squares, minimize_scalar
 
 import fem_reference
-from comparisons.codes.cell import Cell, Place, cell_of
+from comparisons.codes.cell import Cell, Place, cell_of, sides_of
 from comparisons.models.context import context
 from comparisons.sweep.differences import error
 from fem_reference.surface.materials import Section, section_of
@@ -147,17 +147,13 @@ def nearest(
     return fixed_values | {n: float(v * s) for n, v, s in zip(names, solution.x, sizes, strict=True)}
 
 
-def limit_error(scene: Scene, moduli: Moduli, elements: int = 16) -> float:
-    """Return the error in a scene of the finest mesh of a cell: the error of a shell with the cell's moduli.
+def limit_errors(scene: Scene, elements: int = 16) -> Callable[[Moduli], float]:
+    """Return a function of a cell's moduli: the error in a scene of the finest mesh of the cell, found by a
+    shell with the cell's moduli. The sheet's own shell is solved once, here.
 
     elements: along the side of a square, as many in all on others. The shell takes large rotations, as the
-    meshes do. Raises BadInput where bending and stretching are coupled, NoEquilibrium where the sheet, with
-    its own moduli or the cell's, has no stable equilibrium in the scene."""
-    return limit_errors(scene, elements)(moduli)
-
-
-def limit_errors(scene: Scene, elements: int) -> Callable[[Moduli], float]:
-    """Return a function of moduli, their `limit_error` in a scene, which is itself solved once."""
+    meshes do. Both raise NoEquilibrium where the sheet, with its own moduli or the cell's, has no stable
+    equilibrium in the scene, the function BadInput where bending and stretching are coupled."""
     lengths = scene.sheet.lengths
     cells = max(2, round(elements * min(lengths) / (lengths[0] * lengths[1]) ** 0.5))
     points, solved = scene.probe_points(), count(1)
@@ -250,12 +246,7 @@ def triangular_cell(name: str, spacing: float) -> Cell:
 
 def _join_corners(elements: Iterable[Sequence[Place]]) -> tuple[tuple[Place, Place, str], ...]:
     """Return springs "k" between every two corners of elements, each once."""
-    sides: dict[tuple[Place, Place], None] = {}
-    for element in elements:
-        for a, b in combinations(element, 2):
-            (first, i, j), (second, *to) = sorted((a, b))
-            sides[(first, 0, 0), (second, to[0] - i, to[1] - j)] = None
-    return tuple((a, b, "k") for a, b in sides)
+    return tuple((a, b, "k") for a, b in sides_of(elements))
 
 
 def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[str, float]:

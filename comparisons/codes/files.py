@@ -147,17 +147,12 @@ def files(code: str, of: Problem) -> dict[str, str]:
     return {**files, JSON: document, f"run_{code}.py": script(f"run_{code}.py")}
 
 
+PLUGINS = "Constraint.Projective LinearSolver.Direct Mass MechanicalLoad ODESolver.Backward "
+PLUGINS += "SolidMechanics.Spring StateContainer Topology.Container.Constant"
 SCENE = """\
 <?xml version="1.0"?>
 <Node name="root" dt="0.01" gravity="{gravity}">
-  <RequiredPlugin name="Sofa.Component.Constraint.Projective" />
-  <RequiredPlugin name="Sofa.Component.LinearSolver.Direct" />
-  <RequiredPlugin name="Sofa.Component.Mass" />
-  <RequiredPlugin name="Sofa.Component.MechanicalLoad" />
-  <RequiredPlugin name="Sofa.Component.ODESolver.Backward" />
-  <RequiredPlugin name="Sofa.Component.SolidMechanics.Spring" />
-  <RequiredPlugin name="Sofa.Component.StateContainer" />
-  <RequiredPlugin name="Sofa.Component.Topology.Container.Constant" />
+{plugins}
   <DefaultAnimationLoop />
   <Node name="sheet">
     <EulerImplicitSolver rayleighMass="{drag!r}" rayleighStiffness="0" />
@@ -198,6 +193,7 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
     columns = (links.masses, links.stiffness, links.damping, links.rest_length)
     springs = zip(*(column.tolist() for column in columns), strict=True)
     return SCENE.format(
+        plugins="\n".join(f'  <RequiredPlugin name="Sofa.Component.{one}" />' for one in PLUGINS.split()),
         gravity=words(gravity),
         drag=lattice.damping_rate,
         places=words(places),

@@ -38,44 +38,23 @@ QUANTITIES = {  # of the sheet: symbol and unit
 @dataclass(frozen=True, repr=False)
 class SheetOfCode(Answer):
     """The sheet that numbers of a code describe. given: parameters of the code; spacing [m]: distance of the
-    nodes; membrane: A11 [N/m]; poisson; bending: D11 [N·m]; areal: ρ h [kg/m²]; rho: ρ [kg/m³]. The last
-    three are None where no parameter determines them."""
+    nodes; membrane: A11 [N/m]; poisson; stretching: E h [N/m]; bending: D11 [N·m]; thickness: h [m] of the
+    isotropic sheet with this membrane and this bending stiffness, young: its E [Pa], density: its ρ [kg/m³];
+    area_density: ρ h [kg/m²]. Those from bending on are None where no parameter determines them."""
 
     code: Code
     given: Mapping[str, float]
     spacing: float | None
     membrane: float
     poisson: float
+    stretching: float
     bending: float | None
-    areal: float | None = None
-    rho: float | None = None
+    thickness: float | None
+    young: float | None
+    density: float | None
+    area_density: float | None
 
     file_name = "sheet"
-
-    @property
-    def thickness(self) -> float | None:
-        """h [m] of the isotropic sheet that has this membrane and this bending stiffness."""
-        return (12.0 * self.bending / self.membrane) ** 0.5 if self.bending else None
-
-    @property
-    def stretching(self) -> float:
-        """E h [N/m]."""
-        return self.membrane * (1.0 - self.poisson**2)
-
-    @property
-    def young(self) -> float | None:
-        """E [Pa] of that sheet."""
-        return self.stretching / self.thickness if self.thickness else None
-
-    @property
-    def density(self) -> float | None:
-        """ρ [kg/m³] of that sheet."""
-        return self.areal / self.thickness if self.areal and self.thickness else self.rho
-
-    @property
-    def area_density(self) -> float | None:
-        """ρ h [kg/m²] of that sheet."""
-        return self.rho * self.thickness if self.areal is None and self.rho and self.thickness else self.areal
 
     @property
     def impossible(self) -> str:
@@ -153,18 +132,26 @@ def sheet_of(
     else:
         shape = triangular_cell(mesh, distance) if springs else cell_of(mesh, distance, hinge=row.hinge)
     moduli = moduli_of(shape, {name: values.get(name, 0.0) for name in shape.units()})
-    stretching, mixed = map(float, moduli.membrane[0, :2])
+    a11, poisson = float(moduli.membrane[0, 0]), float(moduli.membrane[0, 1] / moduli.membrane[0, 0])
     bending = float(moduli.bending[0, 0]) if layered else None
     if "hinge" in values:  # it is in proportion to the sheet's bending stiffness
-        material = Material(1e6, min(mixed / stretching, MOST_POISSON), 1e3)
+        material = Material(1e6, min(poisson, MOST_POISSON), 1e3)
         unit_hinge = nearest(shape, material, 1e-3, dict.fromkeys(membrane, 0.0))["hinge"]
         bending = values["hinge"] * 1e6 * 1e-9 / 12.0 / (1.0 - material.poisson**2) / unit_hinge
     elif "thickness" in values and not layered and row.hinge != "height":
-        bending = stretching * values["thickness"] ** 2 / 12.0
-    areal, mass_density = values.get("areal"), values.get("density", density)
-    if areal is None and mass_density is not None and "thickness" in values:
-        areal = mass_density * values["thickness"]
-    return SheetOfCode(row, given, spacing, stretching, mixed / stretching, bending, areal, mass_density)
+        bending = a11 * values["thickness"] ** 2 / 12.0
+    thickness = (12.0 * bending / a11) ** 0.5 if bending else None
+    stretching = a11 * (1.0 - poisson**2)
+    young = stretching / thickness if thickness else None
+    areal, rho = values.get("areal"), values.get("density", density)
+    if areal is None and rho is not None and "thickness" in values:
+        areal = rho * values["thickness"]
+    if areal and thickness:
+        rho = areal / thickness
+    elif areal is None and rho and thickness:
+        areal = rho * thickness
+    found = poisson, stretching, bending, thickness, young, rho, areal
+    return SheetOfCode(row, given, spacing, a11, *found)
 
 
 NAMES = ("lambda_h", "mu_h", "hinge", "thickness", "density", "k", "layers")

@@ -191,13 +191,12 @@ def lattice_files(
     added = {name: script(name) for reader, name in READERS.items() if reader == code}
     if code == SOFA:
         added = {"sofa.scn": to_sofa(lattice, scene)}
-    extra = {"natural.csv": natural(lattice)} if scene.natural_by else {}
-    if scene.obstacles:
-        extra |= contacts(lattice, scene)
+    extra = {"motion.json": to_json(lattice.steps.as_dict())}
+    extra |= {"natural.csv": natural(lattice)} if scene.natural_by else {}
+    extra |= contacts(lattice, scene) if scene.obstacles else {}
     texts = {**tables(lattice), **extra, "README.md": page(lattice, scene, calibration, added), **added}
     values = arrays(lattice)
     files: dict[str, Write] = {name: partial(write_text, text=text) for name, text in texts.items()}
-    files["motion.json"] = partial(write_text, text=to_json(lattice.steps.as_dict()))
     files["lattice.npz"] = partial(write_npz, values=values)
     files["lattice.mat"] = partial(write_mat, values=values)
     return files, list(lattice.notes)

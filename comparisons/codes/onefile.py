@@ -89,10 +89,10 @@ def program(
     add_growth(tables, system)
     loads = dict.fromkeys(one.history for one in (scene.gravity, *scene.loads) if one and one.history)
     histories = [*(natural.history for natural in sources.values()), *loads]
-    tables.add("MOTION", [tables.curve(body.motion, "displacement") for body in bodies.values()], "int")
-    tables.add("HISTORY", [tables.curve(one, "factor") for one in histories], "int")
-    tables.add("KNOT", [*tables.knots, *np.zeros((2, 5))], "double")
-    tables.add("FIRST", [*tables.starts, 0])
+    motions = [tables.curves(body.motion, "displacement", 3) for body in bodies.values()]
+    tables.add("MOTION", np.reshape(motions, (-1, 3)).astype(int), "int")
+    tables.add("HISTORY", [first for one in histories for first in tables.curves(one, "factor", 1)], "int")
+    tables.add("KNOT", np.reshape(tables.knots, (-1, 6)), "double")
     tables.add("INPUT", [start for _, start in inputs.values()])
     tables.add("START", start.u if start.u.any() else start.u[:1])
     sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}

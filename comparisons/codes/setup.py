@@ -22,7 +22,7 @@ from comparisons.codes.cell_moduli import CellInScene, Parameter, parameters_of,
 from comparisons.codes.coefficients import (
     best_hinge,
     layered_springs,
-    limit_error,
+    limit_errors,
     moduli_of,
     nearest,
     tetrahedral_cell,
@@ -225,7 +225,7 @@ def setup(
         elif best and (hinge := best_hinge(scene, cell, values)):
             values["hinge"] = hinge
         if at_rest:
-            error_left = limit_error(scene, moduli_of(cell, {one: values[one] for one in cell.units()}))
+            error_left = limit_errors(scene)(moduli_of(cell, {one: values[one] for one in cell.units()}))
     except NoEquilibrium as error:
         best, missing = False, str(error)
     return CodeSetup(scene, cell, values, error_left, missing, row, squares, best and not given, given, named)

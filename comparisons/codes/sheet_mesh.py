@@ -7,7 +7,6 @@ corners of a triangle.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
@@ -15,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.codes.cell import cut_squares
 from comparisons.codes.coefficients import five
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene, Sheet
@@ -82,16 +82,13 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
         raise BadInput(f"{scene.name}: {reason}")
     counts = near_square(scene.sheet, squares)
     spacing = np.array(scene.sheet.lengths) / counts
-    rows_beyond = {edge: 0 for edge in EDGES} | {
-        s.edge: 1 for s in scene.supports if isinstance(s, Clamped) and s.edge
-    }
-    i, j = np.meshgrid(
-        np.arange(-rows_beyond["x0"], counts[0] + rows_beyond["x1"] + 1),
-        np.arange(-rows_beyond["y0"], counts[1] + rows_beyond["y1"] + 1),
-        indexing="ij",
-    )
+    clamped = {support.edge for support in scene.supports if isinstance(support, Clamped)}
+    sides = zip("xy", counts, strict=True)
+    lines = [np.arange(-(f"{axis}0" in clamped), n + 1 + (f"{axis}1" in clamped)) for axis, n in sides]
+    i, j = np.meshgrid(*lines, indexing="ij")
     number = np.arange(i.size).reshape(i.shape)
-    triangles = np.array(list(_cut_squares(number, (i + j)[:-1, :-1] % 2 == 1, pattern == ALTERNATE)))
+    odd = ((i + j)[:-1, :-1] % 2 == 1) & (pattern == ALTERNATE)
+    triangles = np.array(list(cut_squares(number, odd)))
     held, inside, share = np.zeros(i.shape, dtype=bool), np.ones(i.shape, dtype=bool), np.ones(i.shape)
     for edge, words in EDGES.items():
         position = (i, j)[words.normal_axis]
@@ -219,12 +216,6 @@ def refusal(scene: Scene) -> str:
     if any(not isinstance(load, PointLoad | EdgeLoad) or load.follows for load in scene.loads):
         return "weight and forces at points and along edges only"
     return ""
-
-
-def _cut_squares(number: np.ndarray, odd: np.ndarray, alternate: bool) -> Iterator[tuple[int, int, int]]:
-    for (i, j), second in np.ndenumerate(odd):
-        a, d, b, c = number[i : i + 2, j : j + 2].ravel().tolist()
-        yield from ((a, b, d), (b, c, d)) if alternate and second else ((a, b, c), (a, c, d))
 
 
 def _locate_point(places: np.ndarray, triangles: np.ndarray, at: np.ndarray) -> tuple[list[int], list[float]]:

@@ -96,10 +96,9 @@ def arrays(lattice: Description) -> dict[str, np.ndarray]:
         "couple_after": _repeat_masses([couple.after for couple in lattice.couples], layers),
         "couple_moment": np.array([couple.moment for couple in lattice.couples]),
         **dict(zip(("contact_masses", "contact_weights", "contact_values"), lattice.contact, strict=True)),
-        "state_name": np.array([state.name for state in lattice.states]),
         **{
             f"state_{name}": np.array([getattr(state, name) for state in lattice.states])
-            for name in ("displacement", "force", "energy")
+            for name in ("name", "displacement", "force", "energy")
         },
     }
     for kind, components in (("area", 1), ("strain", 3), ("coupling", 3), ("rubber", 8), ("face", 1)):
@@ -120,7 +119,6 @@ def _repeat_masses(groups: Sequence[tuple[int, ...]], width: int) -> np.ndarray:
     return np.array(rows, dtype=int).reshape(-1, width)
 
 
-AXES = "xyz"
 Row = Sequence[Any]
 
 
@@ -128,36 +126,25 @@ def tables(lattice: Description) -> dict[str, str]:
     """Return the text of every file by its name."""
     numbers, corners = np.arange(len(lattice.mass)), ",".join(f"corner_{n}" for n in range(1, 5))
     width = max(3, *(table.stiffness.shape[1] for table in lattice.cells), 0)
-    cells = [
-        "kind", corners, "rest_area", *(f"stiffness_{n}" for n in range(1, width + 1)),
-        *(f"damping_{n}" for n in range(1, 4)),
-    ]  # fmt: skip
-    loaded = np.flatnonzero(lattice.dead.any(axis=1))
-    return {
-        "nodes.csv": _csv(
-            "number,i,j,k,x,y,z,mass", _zip(numbers, lattice.index, lattice.positions, lattice.mass)
-        ),
-        "links.csv": _csv("a,b,family,rest_length,stiffness,damping", _zip(*vars(lattice.links).values())),
-        "cells.csv": _csv(",".join(cells), _list_cells(lattice, width)),
-        "supports.csv": _csv(
-            "edge,masses,component,displacement",
-            (
-                [h.edge.replace(" ", "_"), _join_numbers(h.masses), AXES[h.axis], h.displacement]
-                for h in lattice.holds
-            ),
-        ),
-        "loads.csv": _csv("number,fx,fy,fz", _zip(loaded, lattice.dead[loaded])),
-        "followers.csv": _csv(f"kind,{corners},value", _list_loads(lattice)),
-        "check.csv": _csv(
-            "state,number,ux,uy,uz,fx,fy,fz",
-            (
-                row
-                for state in lattice.states
-                for row in _zip([state.name] * len(numbers), numbers, state.displacement, state.force)
-            ),
-        ),
-        "states.csv": _csv("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
+    cells = ["kind", corners, "rest_area", *(f"stiffness_{n}" for n in range(1, width + 1))]
+    cells += [f"damping_{n}" for n in range(1, 4)]
+    nodes, loaded = [numbers, lattice.index, lattice.positions], np.flatnonzero(lattice.dead.any(axis=1))
+    holds = (
+        (h.edge.replace(" ", "_"), _join_numbers(h.masses), "xyz"[h.axis], h.displacement)
+        for h in lattice.holds
+    )
+    states = [([s.name] * len(numbers), numbers, s.displacement, s.force) for s in lattice.states]
+    files: dict[str, tuple[str, Iterable[Row]]] = {
+        "nodes": ("number,i,j,k,x,y,z,mass", _zip(*nodes, lattice.mass)),
+        "links": ("a,b,family,rest_length,stiffness,damping", _zip(*vars(lattice.links).values())),
+        "cells": (",".join(cells), _list_cells(lattice, width)),
+        "supports": ("edge,masses,component,displacement", holds),
+        "loads": ("number,fx,fy,fz", _zip(loaded, lattice.dead[loaded])),
+        "followers": (f"kind,{corners},value", _list_loads(lattice)),
+        "check": ("state,number,ux,uy,uz,fx,fy,fz", (row for state in states for row in _zip(*state))),
+        "states": ("state,energy,meaning", ([s.name, s.energy, s.meaning] for s in lattice.states)),
     }
+    return {f"{name}.csv": _csv(*of) for name, of in files.items()}
 
 
 def _list_loads(lattice: Description) -> Iterator[Row]:

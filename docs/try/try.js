@@ -3,7 +3,6 @@
 const YOUNG = 54.5e6, GRAVITY = 9.81, SIDE = 0.188, SPAN = 6; // Pa, m/s², m, seconds of the plot
 const SIDE_COLUMNS = 9, COLUMNS = SIDE_COLUMNS ** 2, ROWS = 3 * COLUMNS; // rows of sheet.h: two layers and their middles
 const HELD = 15, LIFT = 3 * COLUMNS + 2; // N/m of the spring to a finger; number of the input gravity.z
-const LOADS = [0.25, 0.5, 1, 2, 4]; // of g/E
 const by = id => document.getElementById(id);
 const value = name => CHOICES[name].stops[+by(name).value];
 const three = of => [0, 1, 2].map(of);
@@ -42,7 +41,7 @@ async function load(name) {
 function apply() {
   for (const name in CHOICES) by(name).ariaValueText = by(name).previousElementSibling.textContent = CHOICES[name].shown(value(name));
   const ratio = value("gravity") / value("E"), sheet = `${value("scene")} ${value("thickness")}`;
-  known = ratio === 0 ? 0 : answers[sheet]?.[LOADS.indexOf(ratio)] ?? null;
+  known = ratio === 0 ? 0 : answers[sheet]?.[ratio] ?? null;
   if (wanted !== sheet) load(wanted = sheet);
   if (program) set(LIFT, -GRAVITY * ratio);
 }

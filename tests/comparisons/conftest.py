@@ -34,4 +34,4 @@ def compared():
 @pytest.fixture
 def coarse_limits(monkeypatch):
     """The error of however fine a mesh is found on 2 × 2 elements: for tests of what else a set-up holds."""
-    monkeypatch.setattr(setup, "limit_error", lambda *given: coefficients.limit_error(*given, elements=2))
+    monkeypatch.setattr(setup, "limit_errors", lambda scene: coefficients.limit_errors(scene, 2))

@@ -1,4 +1,4 @@
-"""A server of `sheetbench live` in a thread of the tests, and a page's side of the conversation with it."""
+"""A server of `sheetbench live` in a thread of the tests, and both sides of the conversation with it."""
 
 import http.client
 import json
@@ -10,6 +10,8 @@ from urllib.parse import urlsplit
 
 from comparisons.live.panel import Panel
 from comparisons.live.server import Server
+
+ANSWERED = "live.shown.shell !== undefined && live.shown.shell.number === live.asked()"
 
 
 @contextmanager
@@ -45,3 +47,12 @@ def posted(address: str, what: str, question: str | bytes) -> tuple[int, Any]:
     body = question.encode() if isinstance(question, str) else question
     answer = got(address, urlsplit(address).path + what, body)
     return answer.status, json.loads(answer.read() or b"null")
+
+
+def until(page: Any, expression: str) -> None:
+    """Wait for an expression of the page to hold; its policy lets nobody wait within it."""
+    for _ in range(100_000):
+        if page.evaluate(f"window.live !== undefined && ({expression})"):
+            return
+        page.wait_for_timeout(5)
+    raise AssertionError(f"never: {expression}")

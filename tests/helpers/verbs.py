@@ -114,7 +114,7 @@ def run_here(patch: pytest.MonkeyPatch) -> None:
 def few_runs(patch: pytest.MonkeyPatch) -> None:
     """Run campaigns here, maps with two runs along each axis, limits of codes' meshes on coarse ones."""
     run_here(patch)
-    patch.setattr(setup, "limit_error", lambda *given: coefficients.limit_error(*given, elements=2))
+    patch.setattr(setup, "limit_errors", lambda scene: coefficients.limit_errors(scene, 2))
     for name, values in FEW.items():
         patch.setattr(extremes, name, values)
 

@@ -15,13 +15,10 @@ static real dot(const real *x, const real *y) { return x[0] * y[0] + x[1] * y[1]
 static void cross(const real *x, const real *y, real *z) {
   EACH(e) z[e] = x[(e + 1) % 3] * y[(e + 2) % 3] - x[(e + 2) % 3] * y[(e + 1) % 3];
 }
-/* sets a curve's value and two derivatives at a time: cubics {from, coefficients}, constant before and after */
-static void curve(int k, double t, double to[3]) {
-  const int last = FIRST[k + 1] - 1;
-  int n = FIRST[k];
-  const double late = (KNOT[last][0] - KNOT[n][0]) * 1e-9;
-  while (n < last && KNOT[n + 1][0] <= t + late) n++;
-  const double *c = KNOT[n], x = t - c[0];
+/* sets a curve's value and two derivatives at a time: cubics {since when, from, coefficients}, constant before and after */
+static void curve(int n, double t, double to[3]) {
+  while (n < KNOTS - 1 && KNOT[n + 1][0] <= t) n++;
+  const double *c = KNOT[n] + 1, x = t - c[0];
   to[0] = c[1] + x * (c[2] + x * (c[3] + x * c[4])), to[1] = c[2] + x * (2 * c[3] + 3 * x * c[4]), to[2] = 2 * c[3] + 6 * x * c[4];
 }
 static void average(field x) { /* the middles of columns */
@@ -217,7 +214,7 @@ static void move_all(sheet *s, real h) { /* a step on, over which masses have ke
   double to[3];
   for (int b = 0; b < SHEET_BODIES; b++) EACH(e) {
     s->path[b][e][0] += h * s->path[b][e][1];
-    if (!s->moved[b] && MOTION[b] >= 0) curve(MOTION[b] + e, s->time, to), move(s, b, e, to);
+    if (!s->moved[b] && MOTION[b][e] >= 0) curve(MOTION[b][e], s->time, to), move(s, b, e, to);
   }
 }
 void sheet_reset(sheet *s) {

@@ -12,9 +12,9 @@
   const sliders = new Map();
   const shown = {}; // the last answer of each model
   const given = {}; // its sheet, as the viewer takes it
-  const begun = new Map(); // when the question of a number was requested, by the event's own clock
   const latencies = []; // ms from the event to the lattice drawn
-  let panel, calibration, viewer;
+  const calibration = at("calibration");
+  let panel, viewer;
   let number = 0;
 
   window.live = { latencies, shown, asked: () => number };
@@ -32,9 +32,6 @@
     const size = Math.floor(Math.log10(Math.abs(value) || 1));
     return value.toFixed(Math.max(digits - 1 - size, 0)).replace("-", "−");
   }
-
-  // The same without them, as people type it.
-  const typed = (value) => String(Number(value.toPrecision(5))).replace("-", "−");
 
   // Units that may be typed, in SI.
   const SCALES = {
@@ -81,7 +78,7 @@
       const [, digits, unit] = said.replace("−", "-").replace(",", ".").match(/^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(.*)$/i) ?? [];
       const factor = unit ? (this.unit in SCALES && SCALES[unit]?.of === SCALES[this.unit].of ? SCALES[unit].si : unit === this.unit ? 1 / this.factor : NaN) : 1 / this.factor;
       const value = Number(digits) * factor;
-      const shown = (number) => `${typed(number * this.factor)}${this.unit ? ` ${this.unit}` : ""}`;
+      const shown = (number) => `${Sheets.number(number * this.factor, 5)}${this.unit ? ` ${this.unit}` : ""}`;
       if (Number.isNaN(value)) {
         const hint = this.unit in SCALES ? `a number in ${this.unit}, or with another unit of ${SCALES[this.unit].of}` : "a number";
         return refuse(`${this.label}: “${said}” cannot be read; write ${hint}. It stays ${shown(this.value)}.`);
@@ -116,7 +113,7 @@
     }
 
     write() {
-      const text = typed(this.value * this.factor);
+      const text = Sheets.number(this.value * this.factor, 5);
       this.text.value = text;
       this.range.setAttribute("aria-valuetext", `${text} ${this.unit}`);
     }
@@ -132,34 +129,21 @@
     at("name").textContent = panel.name;
     at("title").textContent = panel.title;
     document.title = `${panel.name} · sheetbench live`;
+    let place = "sliders";
     for (const slider of panel.sliders) {
-      if (slider.name === "grid") choose();
-      sliders.set(slider.name, new Slider(slider, at("sliders")));
+      if (slider.name === "grid") place = "models"; // from here on
+      sliders.set(slider.name, new Slider(slider, at(place)));
     }
+    for (const name of Object.keys(panel.calibrations)) make("option", { value: name }, calibration).textContent = name;
+    calibration.value = panel.calibration;
     settle();
-    const row = (parent, name, kind) => {
-      const found = make("tr", {}, parent);
+    const row = (parent, name) => {
+      const found = make("tr", { "data-fact": name }, parent);
       make("th", { scope: "row" }, found).textContent = name;
       for (const model of ["lattice", "shell"]) make("td", { "data-model": model }, found).textContent = "–";
-      if (kind) found.dataset.fact = kind;
     };
-    for (const fact of FACTS) row(at("facts"), fact, fact);
-    for (const probe of Object.keys(panel.probes)) row(at("probes"), probe, probe);
-  }
-
-  function choose() {
-    const box = make("div", { class: "choice" }, at("sliders"));
-    make("label", { for: "calibration" }, box).textContent = "Calibration";
-    calibration = make("select", { id: "calibration" }, box);
-    for (const name of Object.keys(panel.calibrations)) {
-      make("option", { value: name }, calibration).textContent = name;
-    }
-    make("p", { id: "method", class: "pale" }, box);
-    calibration.value = panel.calibration;
-    calibration.addEventListener("change", (event) => {
-      settle();
-      ask(event.timeStamp);
-    });
+    for (const fact of FACTS) row(at("facts"), fact);
+    for (const probe of Object.keys(panel.probes)) row(at("probes"), probe);
   }
 
   // Sliders that the calibration has no use for.
@@ -171,19 +155,15 @@
     sliders.get("grid").enable(calibration.value !== "scene");
   }
 
-  function question() {
+  // since: when it was requested, by the event's own clock.
+  function ask(since) {
+    number += 1;
+    at("refused").textContent = "";
+    mark();
     const values = {};
     for (const [name, slider] of sliders) values[name] = slider.value;
     if (sliders.get("grading").range.disabled) values.grading = 0;
-    return { number, values, calibration: calibration.value };
-  }
-
-  function ask(since) {
-    number += 1;
-    begun.set(number, since);
-    at("refused").textContent = "";
-    mark();
-    lattices.ask(question());
+    lattices.ask({ number, values, calibration: calibration.value, since });
   }
 
   // ---- what is answered
@@ -218,30 +198,23 @@
     draw("lattice", message);
     tell("lattice", message);
     shells.ask(question);
-    const since = begun.get(message.number);
-    for (const old of begun.keys()) if (old <= message.number) begun.delete(old);
+    const { since } = question;
     if (since === undefined) return;
-    message.since = since;
     requestAnimationFrame(() => {
       latencies.push(performance.now() - since);
       at("latency").textContent = `${figures(latencies.at(-1), 3)} ms`;
     });
   }
 
-  function shell(message) {
+  function shell(message, { since }) {
+    const { difference, error } = message;
     shown.shell = message;
     draw("shell", message);
-    if (fits(message.difference)) viewer.update("lattice", { values: { difference: message.difference } });
+    const known = given.lattice.fields.at(-1).values; // of a newer lattice perhaps, with other masses
+    if (known.float32.length === difference.float32.length) viewer.update("lattice", { values: { difference } });
     tell("shell", message);
-    const { since } = shown.lattice.number === message.number ? shown.lattice : {};
     if (since !== undefined) requestAnimationFrame(() => (message.after = performance.now() - since));
-    const { error } = message;
     at("error").textContent = error === null ? "–" : `${figures(100 * error, error < 0.1 ? 2 : 3)} %`;
-  }
-
-  // Whether the lattice on the stage still has the masses that these values are of.
-  function fits(values) {
-    return given.lattice.fields.at(-1).values.float32.length === values.float32.length;
   }
 
   function tell(model, message) {
@@ -268,13 +241,12 @@
     for (const model of ["lattice", "shell"]) {
       const behind = shown[model]?.number !== number;
       for (const one of document.querySelectorAll(`[data-model="${model}"]`)) one.classList.toggle("behind", behind);
-      if (model === "shell") at("headline").classList.toggle("behind", behind);
     }
   }
 
   // ---- the conversation
 
-  async function post(what, question) {
+  async function post(what, { since, ...question }) {
     let answer;
     try {
       answer = await fetch(what, { method: "POST", body: JSON.stringify(question) });
@@ -314,6 +286,10 @@
   const lattices = new Model("lattice", lattice);
   const shells = new Model("shell", shell);
 
+  calibration.addEventListener("change", (event) => {
+    settle();
+    ask(event.timeStamp);
+  });
   at("reset").addEventListener("click", (event) => {
     for (const slider of sliders.values()) slider.put(slider.start);
     calibration.value = panel.calibration;
@@ -323,7 +299,6 @@
   at("panel").addEventListener("submit", (event) => event.preventDefault());
   fetch("panel").then((answer) => answer.json()).then((message) => {
     build(message);
-    ask(performance.now());
-    begun.clear(); // the first answer is of no drag
+    ask(); // the first answer is of no drag
   });
 })();

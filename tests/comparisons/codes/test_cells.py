@@ -11,7 +11,7 @@ from commands import json_of, one_line, run
 import sheetbench as sb
 from comparisons.codes.cell import MESHES, Cell, cell_of
 from comparisons.codes.cell_moduli import parameters_of
-from comparisons.codes.coefficients import limit_error, moduli_of, nearest
+from comparisons.codes.coefficients import limit_errors, moduli_of, nearest
 from comparisons.codes.files import WRITERS
 from comparisons.codes.inverse import sheet_of
 from comparisons.codes.setup import setup
@@ -92,7 +92,7 @@ def test_the_limit_is_that_of_discrete_shells_on_the_published_sheet(name, share
     """Measured on 17 × 17 nodes, near the limit: with hinges k = D/l 48 % off, with half of it 8 %."""
     cell = cell_of(name, 0.188 / 16, 0.0)
     coefficients = nearest(cell, MATERIAL, THICKNESS) | {"hinge": share * RIGIDITY / (0.188 / 16)}
-    assert limit_error(SCENE, moduli_of(cell, coefficients), elements=8) == pytest.approx(off, abs=0.02)
+    assert limit_errors(SCENE, 8)(moduli_of(cell, coefficients)) == pytest.approx(off, abs=0.02)
 
 
 def test_newtons_membrane_is_the_sheet_at_small_strain():
@@ -157,7 +157,7 @@ def test_what_is_no_cell_is_refused_with_its_file_or_name(tmp_path, capsys, text
 def test_every_shell_of_a_search_is_told():
     told = []
     with running(progress=told.append):
-        limit_error(SCENE, moduli_of(cell_of("equilateral", 0.02, 0.0), UNIT), elements=2)
+        limit_errors(SCENE, 2)(moduli_of(cell_of("equilateral", 0.02, 0.0), UNIT))
     assert told == [f"solving shell, 2 elements along the shorter side: no. {n} …" for n in (1, 2)]
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from browser import browser, opened  # noqa: F401
 from commands import run
-from live_server import got, posted, serving
+from live_server import ANSWERED, got, posted, serving, until
 from terminals import COMMAND, Terminal
 
 import sheetbench as sb
@@ -234,17 +234,7 @@ def test_it_ends_by_ctrl_c():
 
 
 # ---- in a browser
-ANSWERED = "live.shown.shell !== undefined && live.shown.shell.number === live.asked()"
 PLACES = "Array.from(live.viewer.sheets.get('lattice').positions.array)"
-
-
-def until(page, expression):
-    """Wait for an expression to hold; the page's policy lets nobody wait within it."""
-    for _ in range(20_000):
-        if page.evaluate(f"window.live !== undefined && ({expression})"):
-            return
-        page.wait_for_timeout(30)
-    raise AssertionError(f"never: {expression}")
 
 
 @pytest.fixture(scope="module")

@@ -27,8 +27,8 @@ meshes that divide a rim alike err alike, and agree.
 
 Nor is p larger than the smoothness of the solution gives: 1.5 over planes, balls and boxes, where nodes touch
 and the border of contact lies between them, on points, and with re-entrant corners of the sheet or around a
-patch; 1 around a held part with such corners; 2 over cylinders; 2.5 with fibres, whose corners are more
-singular. Points that hold each other in the sheet's plane sink into it by the logarithm of the element's
+patch; 1 with re-entrant corners around a held part; 2 over cylinders; 2.5 with fibres, whose corners are
+more singular. Points that hold each other in the sheet's plane sink into it by the logarithm of the element's
 size, without a limit: p = 0.7 there bounds the distance from meshes of up to four times as many elements.
 
 η is the relative excess stiffness of a sheet that only twists, by the unresolved part of the layer

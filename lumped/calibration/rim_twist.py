@@ -2,10 +2,10 @@
 
 Any side of a cell with no cell beyond it is a rim. The present cells of each row and column form runs; a run
 is the strip of `lumped.calibration.edge_twist`, of cells like the one at its end, and the cell at a free end
-has the factor of a strip with as many cells. Whole rectangles of unequal stiffness have such strips too: a
-strip of unequal cells would make up at its ends for stiffness that it has or lacks elsewhere. Ends within the
-sheet's rectangle are free; ends at its edges depend on the supports, and have constants `edge_shear` and
-`strip_shear`.
+has the factor of a strip with as many cells. Whole rectangles of unequal stiffness have strips of equal cells
+too: a strip of unequal cells would make up at its ends for stiffness that it has or lacks elsewhere. Ends
+within the sheet's rectangle are free; ends at its edges depend on the supports, and have constants
+`edge_shear` and `strip_shear`.
 
 The twisting moment in the axes of an oblique rim fades towards it. For n across the rim and t along it, D in
 their axes and the factor f of a wide strip of cells as wide as the grid's, the part of a cell within its

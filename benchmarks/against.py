@@ -10,8 +10,6 @@ code and one thread, in turns of a call, of several if they are short; ratios ar
 the least calls and of the medians.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

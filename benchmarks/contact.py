@@ -3,8 +3,6 @@
 PYTHONPATH=.:tests/helpers python benchmarks/contact.py          half a minute
 """
 
-from __future__ import annotations
-
 import numpy as np
 from contact_cases import (
     FALLEN,

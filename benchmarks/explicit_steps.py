@@ -5,8 +5,6 @@
 The best of four alternating samples of each. Displacements are random, a thousandth of the layers' distance.
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Callable

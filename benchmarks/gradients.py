@@ -6,8 +6,6 @@ A round takes scenes that have not been seen: sheets clamped at one edge on 9 ×
 drawn within 1 %. Each row is the least CPU time of all rounds.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections import defaultdict
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """What benchmarks found, kept: a file a run and benchmark, named by the day and the machine."""
 
-from __future__ import annotations
-
 import json
 import platform
 import re

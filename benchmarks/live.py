@@ -10,8 +10,6 @@ shell. Milliseconds by the clock: on an idle machine. Needs Debian's `chromium`,
 with a graphics card the drawing's share is less.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import shutil

@@ -7,8 +7,6 @@ where there is a truth, the shell (of growth the solid too), and the truth. `bil
 others one together.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from typing import Any

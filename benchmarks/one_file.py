@@ -6,8 +6,6 @@ The sheet of two-edges-clamped with a drag on its mass, explicit steps of the C 
 where it is installed, with its file of `calibrate --for mujoco`, steps of 2 ms. The best of three.
 """
 
-from __future__ import annotations
-
 import argparse
 import resource
 import shutil

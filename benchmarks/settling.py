@@ -10,8 +10,6 @@ step of ours: what the run takes beyond one to the first sample, samples include
 `verlet`, a million steps, and midpoint too.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -7,8 +7,6 @@ tangents, steps), factors (analysis, factors, solutions), set-up with the answer
 of Python between them.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections.abc import Callable

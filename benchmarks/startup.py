@@ -8,8 +8,6 @@ by default, whatever the environment here says: else every process would read th
 empty cache too (a minute).
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import subprocess

@@ -8,8 +8,6 @@ factorisations. Warm code, one BLAS thread; CPU seconds, which other programs on
 than the clock's. `--lattices 129 257` takes minutes and 3 GB.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import platform

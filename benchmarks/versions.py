@@ -5,8 +5,6 @@ is the largest difference from the values of a finer mesh, over their largest. T
 values; later ones read them, so that a change of the reference itself shows too.
 """
 
-from __future__ import annotations
-
 import json
 import platform
 import sys

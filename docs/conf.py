@@ -1,7 +1,5 @@
 """The documentation: `make docs` makes it of these pages, the docstrings and the scripts of examples/."""
 
-from __future__ import annotations
-
 import logging
 import sys
 from importlib.metadata import version as version_of

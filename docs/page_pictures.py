@@ -4,8 +4,6 @@ The page that `sheetbench report` writes of a comparison, whose folder is the ar
 `sheetbench live`. Needs the Debian package chromium.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -4,8 +4,6 @@ A PNG says in its description what its numbers are; tests/test_docs.py holds it 
 solve.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from functools import partial

@@ -3,8 +3,6 @@
 Numpydoc sections (Parameters, Returns, …) are rendered by Sphinx' own extension napoleon.
 """
 
-from __future__ import annotations
-
 import re
 
 from sphinx.ext.napoleon import Config, NumpyDocstring

@@ -8,8 +8,6 @@ The commands of a page share one folder, so that a later one may read what an ea
 that does not end with status 0 is an error of the build.
 """
 
-from __future__ import annotations
-
 import os
 import shlex
 import subprocess

@@ -4,8 +4,6 @@ Run by `make docs-scene`. Four views: the sheet in space, a clamped strip from t
 outside, and a cut through the thickness.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import matplotlib

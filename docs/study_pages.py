@@ -1,7 +1,5 @@
 """Pages that the documentation's build makes: the studies' tables and every key of a scene."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from comparisons.models.keys_page import markdown

@@ -1,7 +1,5 @@
 """A page of the documentation for every verb of the command line, from the verb itself."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

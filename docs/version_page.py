@@ -1,7 +1,5 @@
 """The page of the versions: error and time of ten fixed cases, from the files of `benchmarks/versions.py`."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -30,7 +30,7 @@ _SLOPES = np.array([[7.0, -8.0, 1.0], [-8.0, 16.0, -8.0], [1.0, -8.0, 7.0]]) / 3
 _VALUES = np.array([[4.0, 2.0, -1.0], [2.0, 16.0, 2.0], [-1.0, 2.0, 4.0]]) / 30.0
 
 
-class Missed(NamedTuple):
+class UnresolvedLayers(NamedTuple):
     """Parts of the edge layers that a mesh does not resolve. share: the largest 1 − c of any edge;
     stiffening: the sum of 0.315 h/b (1 − c) over the edges, the relative excess stiffness of a sheet that
     only twists."""
@@ -39,10 +39,10 @@ class Missed(NamedTuple):
     stiffening: float
 
 
-NOTHING = Missed(0.0, 0.0)
+NOTHING = UnresolvedLayers(0.0, 0.0)
 
 
-def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
+def unresolved(scene: Scene, settings: Mapping[str, Any]) -> UnresolvedLayers:
     """Return the unresolved parts of the layers on the mesh of an answer, given its settings. The mesh is
     graded unless the settings exclude it. Bricks (their settings have a `grading`) also have a layer about as
     wide as the sheet is thick where its stiffness steps, and do not resolve it: they converge in first order
@@ -57,16 +57,16 @@ def missed_by(scene: Scene, settings: Mapping[str, Any]) -> Missed:
     for name in sorted(scene.twisting_edges()):  # alike in every process
         edge = EDGES[name]
         cells = np.diff(lines[edge.normal_axis])
-        missed = 1.0 - captured((cells[::-1] if edge.far_end else cells) / (LENGTH * thickness))
+        missed = 1.0 - resolved((cells[::-1] if edge.far_end else cells) / (LENGTH * thickness))
         share = max(share, missed)
         stiffening += missed * SOFTENING * thickness / scene.sheet.lengths[edge.normal_axis]
     local_values = [(name, patch.own[name]) for patch in scene.patches for name in ELASTIC & set(patch.own)]
     if bricks and any(value != getattr(scene.material, name) for name, value in local_values):
         share = 1.0
-    return Missed(share, stiffening)
+    return UnresolvedLayers(share, stiffening)
 
 
-def captured(cells: np.ndarray) -> float:
+def resolved(cells: np.ndarray) -> float:
     """Return the resolved share c of the layer by cells (n,) in layer lengths, from the edge inwards."""
     matrix = np.zeros((2 * len(cells) + 1, 2 * len(cells) + 1))
     for i, cell in enumerate(cells):

@@ -18,8 +18,8 @@ from sheetbench.answers.size import Size, factors
 
 
 class Cost(NamedTuple):
-    """Bytes: constant, per element and per nonzero of the factors; seconds per element and per operation of
-    factorising."""
+    """Cost model. Bytes: constant, per element and per nonzero of the factors; seconds per element and per
+    operation of factorising."""
 
     constant: float
     element: float

@@ -55,22 +55,18 @@ class SheetSensitivity:
         self.centres = sheet.plan.nodes[sheet.plan.elements[:, 8]]
 
     @cached_property
-    def matrix(self) -> Any:
-        """Zᵀ K Z."""
-        return self.sheet.tangent(self.shape, self.sheet.forces(self.shape), 0.0, 0.0)
-
-    @cached_property
     def factor(self) -> Factor:
         """Factors of Zᵀ K Z. Raises NoEquilibrium where it is singular or, of dead loads, not stable."""
-        return self._factor(self.matrix)
+        return self._factor()
 
     @cached_property
     def _transposed(self) -> Factor:
-        return self.factor if self.sheet.symmetric else self._factor(self.matrix.T.tocsr())
+        return self.factor if self.sheet.symmetric else self._factor(transposed=True)
 
-    def _factor(self, matrix: Any) -> Factor:
+    def _factor(self, transposed: bool = False) -> Factor:
+        matrix = self.sheet.tangent(self.shape, self.sheet.forces(self.shape), 0.0, 0.0)
         try:
-            found = self.sheet.solver().factor(matrix)
+            found = self.sheet.solver().factor(matrix.T.tocsr() if transposed else matrix)
         except SingularMatrixError as error:
             raise NoEquilibrium(f"{self.sheet.model}: no derivatives, a singular tangent: {error}") from None
         if found.negative > 0 or found.zero > 0:
@@ -186,28 +182,23 @@ class SheetSensitivity:
         """Return ∂R/∂θ (N,) and ∂δ/∂θ (N,) between two scenes that differ by `over`. weight: whether with
         loads and the weight of the sheet. with_constants: whether with the elements' constants, too."""
         sheet, shape, placed = self.sheet, self.shape, np.zeros(self.sheet.size)
-        sides = [sheet.with_scene(end) for end in ends]
+        low, high = (sheet.with_scene(end) for end in ends)
         forces = []
-        for side in sides:
+        moved = shape.change if with_constants else np.zeros_like(shape.change)  # or the natural strain alone
+        for side in (low, high):
             element = side.elements_of(None, side.law)[0] if with_constants else sheet.element
-            strain = side.strain(shape.change, shape.at) if with_constants else self._unstrained(side)
-            force = sheet.scatter(element.forces(shape.operator, element.stress(strain)))
+            stress = element.stress(side.strain(moved, shape.at))
+            force = sheet.scatter(element.forces(shape.operator, stress))
             for body in side.bodies:
                 force += body.scatter(body.pull(shape.q, body.stress(shape)))
                 force -= sum(body.scatter(dead) for dead, _ in side.weights) * (not weight)
-            items = [one for one in side.items if weight and not isinstance(one, Touching)]
+            items = (one for one in side.items if weight and not isinstance(one, Touching))
             forces.append(force - sum(one.force(shape) for one in items))
-        low, high = sides
         rate = (forces[1] - forces[0]) / over
         for one, before, after in zip(sheet.contacts, low.contacts, high.contacts, strict=True):
             rate -= one.rate(shape, before, after, over)
         placed[: 6 * sheet.nodes] = ((high.change(shape.at) - low.change(shape.at)) / over).ravel()
         return rate, placed
-
-    def _unstrained(self, side: DiscreteShell) -> np.ndarray:
-        """Return the negative natural strains of a sheet."""
-        none = np.zeros_like(self.shape.strain)
-        return none if side.natural is None else none - side.natural.at(self.shape.at)
 
     def product(self, move: np.ndarray, transposed: bool = False) -> np.ndarray:
         """Return K δq (N,), or of the transpose, of δq (N,)."""

@@ -31,10 +31,10 @@ def solve(
 ) -> Solution:
     """Return the static equilibrium of a divided sheet. branch, near: of the shell. branch: one of
     `choices.BRANCHES`; "buckled" leaves an unstable equilibrium along its lowest mode for a stable one. near:
-    a shape, as in `coarse_start.shaped`, near the equilibrium that is sought first; where no stable one is
+    a shape, as in `coarse_start.in_shape`, near the equilibrium that is sought first; where no stable one is
     found from there, the path starts flat."""
     require_choice("branch", branch, BRANCHES)
-    divisions, runs, start = [division], list[Traced](), near and partial(coarse_start.shaped, near)
+    divisions, runs, start = [division], list[Traced](), near and partial(coarse_start.in_shape, near)
     while near is None and (coarser := divisions[-1].coarser()) is not None:
         divisions.append(coarser)
     buckled, fallback = branch == "buckled", ""
@@ -43,7 +43,7 @@ def solve(
         options = {"buckled": buckled} if level is division else {"limits": coarse_start.LIMITS}
         run = traced(level.sheet, inspect, start, progress=progress, **options)
         sheet, path = cast(DiscreteShell, run.sheet), run.path
-        start = partial(coarse_start.start, sheet, path.state.q) if coarse_start.plain(path) else None
+        start = partial(coarse_start.start, sheet, path.state.q) if coarse_start.is_direct(path) else None
         runs.insert(0, run)
     if runs[0].path.fault is STRETCHED:
         fallback = "elements of one size, for the bending"

@@ -53,7 +53,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference import solve
-from fem_reference.edge_layer import NOTHING, Missed, missed_by
+from fem_reference.edge_layer import NOTHING, UnresolvedLayers, unresolved
 from fem_reference.surface.borders import has_corners, has_lines
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.solution import Solution
@@ -149,7 +149,7 @@ def of_solutions(
 ) -> Uncertainty | None:
     """Return the uncertainty of solutions by mesh size, finest first, or None (see `solve_with_bar`)."""
     comparable = [(one, size) for one, size in zip(solutions, sizes, strict=True) if one.comparable]
-    usable = [(one.displacement(points), size, missed_by(scene, one.settings)) for one, size in comparable]
+    usable = [(one.displacement(points), size, unresolved(scene, one.settings)) for one, size in comparable]
     if len({size for _, size, _ in usable}) < 2 or usable[0][1] != sizes[0]:
         return None
     answers, of_sizes, layers = zip(*usable, strict=True)
@@ -165,7 +165,7 @@ def of_answers(scene: Scene, answers: Sequence[np.ndarray], meshes: Sequence[Ele
 def estimate(
     answers: Sequence[np.ndarray],
     sizes: Sequence[float],
-    layers: Sequence[Missed] = (),
+    layers: Sequence[UnresolvedLayers] = (),
     largest: float = IN_ROWS,
 ) -> Uncertainty:
     """Return the bars of answers (n, k) on two or three meshes of rising size. layers: the unresolved layer
@@ -191,7 +191,7 @@ def estimate(
     else:
         coarse_step = answers[1] - answers[2]
         converging = bool(np.linalg.norm(step) < np.linalg.norm(coarse_step) or rounding.all())
-        order = _observed(step, coarse_step, ratio, sizes[2] / sizes[1])
+        order = _observed_order(step, coarse_step, ratio, sizes[2] / sizes[1])
         order[rounding] = np.nan
         trusted = rounding | (order >= LEAST_ORDER)
         orders = np.where(order >= LEAST_ORDER, order, np.inf)[~rounding]  # no order counts as high
@@ -200,7 +200,7 @@ def estimate(
             field_order = min(float(np.median(orders)), largest)
         change = np.where(trusted, step / (ratio ** np.where(trusted, order, 1.0) - 1.0), 0.0)
     error = _by_pairs(answers, sizes, field_order) + _by_layer(answers, layers)
-    bar = weight * error + neighbours * _relative(error, fine) * np.abs(fine)
+    bar = weight * error + neighbours * _relative_error(error, fine) * np.abs(fine)
     bar, extrapolated = np.where(rounding, spread, bar), np.where(rounding, fine, fine + change)
     return Uncertainty(tuple(sizes), fine, extrapolated, order, bar, trusted, converging)
 
@@ -212,7 +212,7 @@ def _by_pairs(answers: Sequence[np.ndarray], sizes: Sequence[float], order: floa
     return np.asarray(np.max(errors, axis=0))
 
 
-def _by_layer(answers: Sequence[np.ndarray], layers: Sequence[Missed]) -> np.ndarray:
+def _by_layer(answers: Sequence[np.ndarray], layers: Sequence[UnresolvedLayers]) -> np.ndarray:
     """Return the error (n, k) of the finest answer by its unresolved part of the layer."""
     least, most = layers[0].stiffening, layers[-1].stiffening
     at_most = TWIST * least * np.abs(answers[0])
@@ -221,13 +221,13 @@ def _by_layer(answers: Sequence[np.ndarray], layers: Sequence[Missed]) -> np.nda
     return np.asarray(np.minimum(at_most, np.abs(answers[0] - answers[-1]) * least / (most - least)))
 
 
-def _relative(error: np.ndarray, answer: np.ndarray) -> np.ndarray:
+def _relative_error(error: np.ndarray, answer: np.ndarray) -> np.ndarray:
     """Return ē (k,), the relative error of each direction over all points."""
     size = np.sqrt(np.sum(answer**2, axis=0))
     return np.divide(np.sqrt(np.sum(error**2, axis=0)), size, out=np.zeros_like(size), where=size > 0.0)
 
 
-def _observed(fine: np.ndarray, coarse: np.ndarray, ratio: float, next_ratio: float) -> np.ndarray:
+def _observed_order(fine: np.ndarray, coarse: np.ndarray, ratio: float, next_ratio: float) -> np.ndarray:
     """Return p of steps f₁ − f₂ and f₂ − f₃; nan where they oscillate, at most 0 where they do not shrink."""
     with np.errstate(divide="ignore", invalid="ignore"):
         quotient = coarse / fine

@@ -17,7 +17,7 @@ ten frequencies on 16 × 16 elements, against 64 × 64, falls from 0.31 % (one e
 with equal elements to 0.05 and 0.09 %; graded over all elements it is 0.04 and 0.14 %, more on coarse meshes.
 
 Masses: plate and shell, ρh on the displacements and ρh³/12 on the director's rotations; solid, ρ; and
-payloads, on the mid-surface and the director (`surface.carried`). SI units.
+payloads, on the mid-surface and the director (`surface.payloads`). SI units.
 """
 
 from collections.abc import Callable

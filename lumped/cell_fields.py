@@ -3,8 +3,9 @@
 Springs of a cell follow from its own section by the closed form of `lumped.calibration.closed_form`, at the
 lattice's own layer distance, so that some springs may be slightly negative here. Along edges and rims a cell
 keeps the factor f of its twisting stiffness from the lattice's own calibration, as f depends on all cells
-across a strip (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone: one
-difference with all cells changed at once gives all rates, which are found once a lattice.
+across a strip (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone, and are in
+proportion to its E: by ν and h one difference with all cells changed at once gives all rates, which are found
+once a lattice.
 
 Fields over the cells (rows, columns), from y0 to y1, each row from x0 to x1:
 
@@ -33,27 +34,25 @@ from lumped.masses import shares_of_layers
 from lumped.natural import grown
 from lumped.natural import powers as natural_powers
 from lumped.sections import CellSection, of_cells, ratio, twisting
-from lumped.spring_constants import EDGES_OWN, NEAR_EDGES, NONE, RIMS_OWN, Springs
-from lumped.springs.all_families import (
-    AllFamilies,
-    cell_springs,
-    faces_by_cells,
-    families_of,
-    stiffness_by_cells,
-)
+from lumped.spring_constants import EDGES_OWN, NONE, RIMS_OWN, Springs
+from lumped.springs.all_families import cell_springs, faces_by_cells, families_of, stiffness_by_cells
 from lumped.springs.families import Family
 from lumped.springs.law_table import FACE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cells, Scene
 from sheetbench.scenes.meaning.natural_state import NaturalState, sheet_at_rest
 
-OF_SECTION = ("young", "poisson", "thickness")
-NUMBERS = (*OF_SECTION, "density")
-STATE = ("strain", "curvature")
+FIELD = "cells."
+YOUNG, POISSON, THICKNESS, DENSITY = NUMBERS = tuple(
+    FIELD + name for name in ("young", "poisson", "thickness", "density")
+)
+STRAIN, CURVATURE = STATE = FIELD + "strain", FIELD + "curvature"
+OF_SECTION = {YOUNG, POISSON, THICKNESS}
 ROUNDING = 1e-9  # of the largest constant
 NOTHING = 1e-300  # N/m, a stiffness of springs that are there
 STEP = 1e-5  # of a field, for differences of springs, whose error is of its square
-Fields = Mapping[str, np.ndarray]
+Values = Mapping[str, np.ndarray]
+SYMMETRIC = [[0, 2], [2, 1]]  # the tensor of components xx, yy and xy
 # of each kind of springs: the cells beside each, (q, m), and their shares (q, m, n) of its constants
 Shares = list[tuple[np.ndarray, np.ndarray]]
 
@@ -75,54 +74,53 @@ class CellFields:
 
     @cached_property
     def base(self) -> dict[str, np.ndarray]:
-        """The fields as they are, by the names of the module's text without "cells."."""
+        """The fields as they are."""
         section, share = self.section, 1.0 if self.section.share is None else self.section.share
         form, bent = section.membrane, section.bending[..., 0, 0]
         thickness = np.sqrt(ratio(12.0 * bent, form[..., 0, 0]))
         free = form[..., 0, 0] - ratio(form[..., 0, 1] ** 2, form[..., 1, 1])
         young, density = (ratio(of, thickness * share) for of in (free, section.per_area))
-        found = {"young": young, "poisson": ratio(form[..., 0, 1], form[..., 1, 1]), "thickness": thickness}
-        return found | {"density": density, **dict(zip(STATE, self._state(), strict=True))}
+        numbers = young, ratio(form[..., 0, 1], form[..., 1, 1]), thickness, density
+        state = np.zeros((2, *self.shape, 2, 2))
+        if self.assembly.natural is not None:
+            state = self.assembly.natural.made(lambda *forms: forms).at()
+        components = (form[..., [0, 1, 0], [0, 1, 1]] for form in state)
+        return dict(zip((*NUMBERS, *STATE), (*numbers, *components), strict=True))
 
-    def _state(self) -> tuple[np.ndarray, np.ndarray]:
-        if self.assembly.natural is None:
-            return np.zeros((*self.shape, 3)), np.zeros((*self.shape, 3))
-        strain, curvature = (
-            form[..., [0, 1, 0], [0, 1, 1]] for form in self.assembly.natural.made(lambda *forms: forms).at()
-        )
-        return strain, curvature
+    def value(self, name: str, values: Values) -> np.ndarray:
+        """Return a field, of the given values or as it is. Raises BadInput for another name."""
+        if name not in self.base:
+            raise BadInput(f"{name}: choose from {', '.join(self.base)}")
+        return np.asarray(values.get(name, self.base[name]))
 
-    def changed_section(self, fields: Fields) -> CellSection:
+    def changed_section(self, values: Values) -> CellSection:
         """Return the sections of cells with other fields."""
         section, base = self.section, self.base
-        if not fields.keys() & {*NUMBERS}:
+        if not values.keys() & {*NUMBERS}:
             return section
 
-        scaled = ("young", "thickness", "density")
-        changes = (ratio(fields.get(name, base[name]), base[name]) for name in scaled)
+        changes = (ratio(values.get(one, base[one]), base[one]) for one in (YOUNG, THICKNESS, DENSITY))
         e, t, rho = (change[..., None, None] for change in changes)
         membrane, bending, shear = section.membrane * e * t, section.bending * e * t**3, section.shear * e * t
-        if "poisson" in fields:
+        if POISSON in values:
             if not self.isotropic:
                 raise BadInput("cells.poisson: of isotropic sheets only")
-            was, now = (nu[..., None, None] for nu in (base["poisson"], fields["poisson"]))
-            by = (1.0 - was**2) / (1.0 - now**2) * np.ones_like(membrane)
-            by[..., 2, 2] *= ((1.0 - now) / (1.0 - was))[..., 0, 0]
-            coupling = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
-            membrane, bending = (
-                by * (form + (now - was) * form[..., 1:2, 1:2] * coupling) for form in (membrane, bending)
-            )
-            shear = shear * (1.0 + was) / (1.0 + now)
+            was, now = base[POISSON], values[POISSON]
+            for form in (membrane, bending):
+                form *= ((1.0 - was**2) / (1.0 - now**2))[..., None, None]
+                form[..., [0, 1], [1, 0]] += ((now - was) * form[..., 1, 1])[..., None]
+                form[..., 2, 2] *= (1.0 - now) / (1.0 - was)
+            shear *= ((1.0 + was) / (1.0 + now))[..., None, None]
         mixed, per_area = section.mixed * e * t**2, section.per_area * (t * rho)[..., 0, 0]
         parts = {"membrane": membrane, "bending": bending, "shear": shear, "mixed": mixed}
         return replace(section, **parts, per_area=per_area)
 
-    def springs(self, *each: Fields) -> list[Springs]:
+    def springs(self, *each: Values) -> list[Springs]:
         """Return the springs of cells with other values of equal fields. Raises BadInput for ν and h if the
         lattice's own are not in closed form."""
-        sections = [self.changed_section(fields) for fields in each]
-        constants, young = self.calibration.constants, self.base["young"]
-        if each[0].keys() & {"poisson", "thickness"}:
+        sections = [self.changed_section(values) for values in each]
+        constants, young = self.calibration.constants, self.base[YOUNG]
+        if each[0].keys() & {POISSON, THICKNESS}:
             each_grid = [replace(self._at_rest, section=cells) for cells in (self.section, *sections)]
             distance, options = constants.layer_distance, special(self.calibration.method)
             found = springs_of_cells(GridCells.stacked(each_grid), distance, True, **options)
@@ -133,7 +131,7 @@ class CellFields:
                     which = f"springs of '{self.calibration.method}', not in closed form"
                     raise BadInput(f"cells.poisson, cells.thickness: {which}")
         else:
-            inside = [constants.scaled(ratio(fields.get("young", young), young)) for fields in each]
+            inside = [constants.scaled(ratio(values.get(YOUNG, young), young)) for values in each]
         return [self._with_edges(cells, springs) for cells, springs in zip(sections, inside, strict=True)]
 
     def _with_edges(self, cells: CellSection, springs: Springs) -> Springs:
@@ -141,17 +139,13 @@ class CellFields:
         constants, of = self.calibration.constants, dict(springs.of)
         now, was = (twisting(section.bending) for section in (cells, self.section))
         factor = np.divide(now, was, out=np.ones_like(now), where=was > 0.0)
-        for name in RIMS_OWN:
-            if name in constants.of:
-                of[name] = (constants.along(name, 0) * factor[..., 0],)
-        for name in NEAR_EDGES if any(name in constants.of for name in EDGES_OWN) else ():
-            near = constants.of.get(name, NONE)
-            pairs = {name: (near, 0), f"far_{name}": (constants.of.get(f"far_{name}", near), -1)}
-            for key, (pair, end) in pairs.items():
-                x, y = pair[0], pair[-1]
-                if name != "edge_coupling":
-                    x, y = x * factor[:, [end], 0], y * factor[[end], :, 1]
-                of[key] = (x, y)
+        for name in constants.of.keys() & {*RIMS_OWN}:
+            of[name] = (constants.along(name, 0) * factor[..., 0],)
+        for name in EDGES_OWN if constants.of.keys() & {*EDGES_OWN} else ():
+            near, end = name.removeprefix("far_"), -1 if name.startswith("far_") else 0
+            pair = constants.of.get(name, constants.of.get(near, NONE))
+            by = (1.0, 1.0) if near == "edge_coupling" else (factor[:, [end], 0], factor[[end], :, 1])
+            of[name] = pair[0] * by[0], pair[-1] * by[1]
         return Springs(of, constants.layer_distance)
 
     @cached_property
@@ -159,98 +153,84 @@ class CellFields:
         sheet, of = sheet_at_rest(self.scene), self.calibration
         return each_cell(sheet, self.scene.material, of.grid, of.grading, self.section)
 
-    def families_of(self, springs: Springs) -> AllFamilies:
-        """Return springs without a natural state."""
-        return families_of(self.assembly.lattice, self.assembly.pattern, springs)
-
-    def assembly_of(self, fields: Fields) -> Assembly:
-        """Return the lattice of cells with other fields."""
-        springs = self.springs(fields)[0] if fields.keys() & {*OF_SECTION} else self.calibration.constants
-        assembly = self._grown(self.families_of(springs), fields)
-        if "density" in fields or "thickness" in fields:
-            assembly.cells = self.changed_section(fields)
-        return assembly
-
-    def _grown(self, families: AllFamilies, fields: Fields) -> Assembly:
-        """Return the lattice with springs `families` in the natural state of fields."""
-        assembly, natural = copy(self.assembly), self.assembly.natural
-        assembly.natural = None
-        assembly._take(families)
-        if fields.keys() & {*STATE}:
-            state = [fields.get(name, self.base[name]) for name in STATE]
-            natural = NaturalState.given(np.concatenate(state, axis=-1))
+    def assembly_of(self, values: Values, complete: bool = False) -> Assembly:
+        """Return the lattice of cells with other fields; complete: with springs of the mid-surface, as still
+        other values can need them, even where they have no stiffness."""
+        assembly, springs = copy(self.assembly), self.calibration.constants
+        if values.keys() & OF_SECTION:
+            springs = self.springs(values)[0]
+        if complete:
+            springs = replace(springs, of=springs.of | {"mid_area": (np.full(self.shape, NOTHING),)})
+        natural, assembly.natural = assembly.natural, None
+        assembly._take(families_of(assembly.lattice, assembly.pattern, springs))
+        if values.keys() & {*STATE}:
+            natural = NaturalState.given(np.concatenate([self.value(one, values) for one in STATE], axis=-1))
         if natural is not None:
             assembly.grow(natural.made(lambda *forms: forms))
+        if values.keys() & {DENSITY, THICKNESS}:
+            assembly.cells = self.changed_section(values)
         return assembly
 
-    def complete(self, fields: Fields, assembly: Assembly) -> Assembly:
-        """Return the lattice with springs of the mid-surface, as other values of the fields can need them."""
-        if len(assembly.springs[2]):
-            return assembly
-        own = self.springs(fields)[0]
-        own = replace(own, of={**own.of, "mid_area": (np.full(self.shape, NOTHING),)})
-        return self._grown(self.families_of(own), fields)
-
     def by_number(
-        self, name: str, fields: Fields, assembly: Assembly, by: list[np.ndarray], v: np.ndarray
+        self, name: str, values: Values, assembly: Assembly, by: list[np.ndarray], v: np.ndarray
     ) -> np.ndarray:
         """Return the derivatives of v·(f − f_int) by a field of numbers, of the complete lattice `assembly`;
         by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
-        base = fields.get(name, self.base[name])
-        found = np.zeros_like(base)
-        of_springs, over = self._rates(name, fields, assembly) if name in OF_SECTION else ([], found)
+        found = np.zeros_like(self.value(name, values))
+        of_springs, over = self._rates(name, values, assembly) if name in OF_SECTION else ([], found)
         for (cells, change), power in zip(of_springs, by, strict=False):
             each = np.einsum("qmn,mn->qm", change, power[:, : change.shape[2]])
-            found -= np.bincount(cells.ravel(), each.ravel(), base.size).reshape(base.shape) / over
-        if name in ("density", "thickness") and self.scene.gravity is not None:
+            found -= np.bincount(cells.ravel(), each.ravel(), found.size).reshape(found.shape) / over
+        if name in (DENSITY, THICKNESS) and self.scene.gravity is not None:
             acceleration = self.scene.gravity.last_factor * np.array(self.scene.gravity.acceleration)
-            per_area = ratio(self.changed_section(fields).per_area, base)
+            per_area = ratio(self.changed_section(values).per_area, self.value(name, values))
             found += per_area * self._of_masses(v[: assembly.lattice.mass_count] @ acceleration)
         return found
 
-    def by_state(self, fields: Fields, assembly: Assembly, by: list[np.ndarray]) -> dict[str, np.ndarray]:
+    def by_state(self, values: Values, assembly: Assembly, by: list[np.ndarray]) -> dict[str, np.ndarray]:
         """Return the derivatives of v·(f − f_int) by the fields of STATE, as `by_number` does."""
-        strain, curvature = (fields.get(one, self.base[one])[..., [[0, 2], [2, 1]]] for one in STATE)
-        flat = assembly.springs
+        state = [self.value(one, values)[..., SYMMETRIC] for one in STATE]
+        lattice, flat = assembly.lattice, assembly.springs
         if assembly.natural is not None:
-            flat = self.families_of(self.springs(fields)[0]).families
-        found = natural_powers(assembly.lattice, flat[:3], (strain, curvature), by[:3])
+            flat = families_of(lattice, assembly.pattern, self.springs(values)[0]).families
+        found = natural_powers(lattice, flat[:3], state, by[:3])
         return dict(zip(STATE, np.split(-found, 2, axis=-1), strict=True))
 
-    def _rates(self, name: str, fields: Fields, assembly: Assembly) -> tuple[Shares, np.ndarray]:
+    def _rates(self, name: str, values: Values, assembly: Assembly) -> tuple[Shares, np.ndarray]:
         """Return the changes of springs `by_cells` with a field, and of the field; of ν and h together."""
-        fields = {one: fields[one] for one in fields.keys() & {*OF_SECTION, "strain"}}
-        kept = {} if fields else self._kept
+        values = {one: values[one] for one in values.keys() & {*OF_SECTION, STRAIN}}
+        kept = {} if values else self._kept
+        if name == YOUNG and name not in kept:  # which all constants are in proportion to, but for a limit
+            of = {one: parts for one, parts in self.springs(values)[0].of.items() if one != "gent_limit"}
+            kept[name] = self.by_cells(Springs(of), assembly, values), self.value(name, values)
         if name not in kept:
-            names = ("poisson", "thickness") if self.isotropic and name != "young" else (name,)
-            base = {one: fields.get(one, self.base[one]) for one in names}
-            steps = {one: STEP * np.maximum(np.abs(of), 0.1 * (one == "poisson")) for one, of in base.items()}
-            ends = ({**fields, one: base[one] + by * steps[one]} for one in names for by in (1.0, -1.0))
-            springs = iter(self.springs(*ends))
+            names = (POISSON, THICKNESS) if self.isotropic else (name,)
+            base = {one: self.value(one, values) for one in names}
+            steps = {one: STEP * np.maximum(np.abs(of), 0.1 * (one == POISSON)) for one, of in base.items()}
+            ends = ({**values, one: base[one] + by * steps[one]} for one in names for by in (1.0, -1.0))
+            found = iter([self.by_cells(springs, assembly, values) for springs in self.springs(*ends)])
             for one, step in steps.items():
-                over = np.where(step > 0.0, 2.0 * step, 1.0)
-                kept[one] = self.by_cells(next(springs), assembly, fields, next(springs)), over
-        return kept[name]
+                pairs = zip(next(found), next(found), strict=True)
+                kept[one] = [(cells, high - low) for (cells, high), (_, low) in pairs], 2.0 * step
+        changes, over = kept[name]
+        return changes, np.where(over > 0.0, over, 1.0)
 
-    def by_cells(self, springs: Springs, assembly: Assembly, fields: Fields, below: Springs | None) -> Shares:
+    def by_cells(self, springs: Springs, assembly: Assembly, values: Values) -> Shares:
         """Return, for each kind of springs, the cells beside each, (q, m), and their shares (q, m, n) of its
-        constants, or of their differences from springs `below`."""
+        constants."""
         lattice, none = assembly.lattice, (np.empty((1, 0), int), np.empty((1, 0, 1)))
-        these, change = lattice.links_of(assembly.links.nodes), springs.less(below) if below else springs
-        found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, change)[:, these])]
+        these = lattice.links_of(assembly.links.nodes)
+        found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these])]
         kept = np.arange(lattice.cell_areas.size)[lattice.present_cells]
-        plain: list[Family] = [*cell_springs(lattice, assembly.pattern, change)]
-        strain = fields.get("strain", self.base["strain"])
-        if strain.any():
-            plain = grown(lattice, plain, strain[..., [[0, 2], [2, 1]]])
+        plain: list[Family] = [*cell_springs(lattice, assembly.pattern, springs)]
+        if (strain := self.value(STRAIN, values)).any():
+            plain = grown(lattice, plain, strain[..., SYMMETRIC])
         for family, now in zip(assembly.springs[1:3], plain, strict=True):
             cells = np.tile(kept, len(family) // len(kept))[None]
             found.append((cells, now.constants[None]) if len(family) and len(now) else none)  # type: ignore[attr-defined]
         if not len(assembly.springs[3]):
             return [*found, none]
         stored = faces_by_cells(lattice, springs)
-        if below is not None:
-            stored = stored - faces_by_cells(lattice, below)
         constants = np.zeros((*stored.shape, FACE.count))
         constants[..., -1] = stored / lattice.faces.at_rest.area**2
         return [*found, (lattice.faces.cells, constants)]

@@ -30,77 +30,60 @@ import scipy.sparse as sp
 
 from lumped.assembly import Assembly
 from lumped.calibration import Calibration
-from lumped.cell_fields import NUMBERS, STATE, CellFields
+from lumped.cell_fields import CURVATURE, FIELD, POISSON, STATE, STRAIN, CellFields, Values
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
-from lumped.parameter_sides import Calibrate, Sides, both_sides
+from lumped.parameter_sides import Calibrate, both_sides
 from lumped.pattern import SHARED_UP_TO
 from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
-from sheetbench.errors import BadInput, NoEquilibrium
+from sheetbench.errors import NoEquilibrium
 from sheetbench.numerics.direct import DirectSolver, Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.parameters import names_of, short_name
 
-FIELD = "cells."
 FORCES = "forces"
 TOGETHER = ("poisson", "thickness")
-FIELD_STEP = {"strain": 1e-6, "curvature": 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
+FIELD_STEP = {STRAIN: 1e-6, CURVATURE: 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
+ITS_OWN: Values = MappingProxyType({})
+Sides = tuple[list[tuple[Problem, Calibration]], float]
 
 
-Values = Mapping[str, np.ndarray]
+class Base:
+    """A scene's lattice with the springs of a calibration, which equilibria with any values share. calibrate:
+    finds the springs of a changed scene; by default the calibration's method without options."""
 
-
-class Equilibrium:
-    """Derivatives at a stable equilibrium u (n, 3) [m] of a scene's lattice, made at u = 0. values: of fields
-    over the cells and forces, by name, in place of the scene's own. calibrate: finds the springs of a changed
-    scene; by default the calibration's method without options."""
-
-    _last: ClassVar[list[tuple[Any, Equilibrium]]] = []
-    values: Values = MappingProxyType({})
+    _last: ClassVar[tuple[Any, Base] | None] = None
 
     def __init__(self, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None):
         self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
-        self.problem = self.plain = build_problem(scene, calibration)
-        self.cells, self.u = CellFields(scene, calibration, self.plain.assembly), 0.0 * self.plain.loads.dead
-        self.constants, self._sides = calibration.constants.names(), dict[str, Sides]()
-        self._parts = dict(vars(self))
+        self.problem = build_problem(scene, calibration)
+        self.cells = CellFields(scene, calibration, self.problem.assembly)
+        self._sides = dict[str, Sides]()
 
     @classmethod
-    def of(
-        cls,
-        scene: Scene,
-        calibration: Calibration,
-        u: np.ndarray | None = None,
-        calibrate: Calibrate | None = None,
-    ) -> Equilibrium:
-        """Return the derivatives at u of a scene's lattice with the springs of a calibration; a small lattice
-        that is equal to the last is not made again."""
-        springs = calibration.springs, calibration.method, calibration.grading, calibration.masses
-        key = calibrate, scene, calibration.grid, springs, id(calibration.cells)
-        found = next((found for last, found in cls._last if last == key), None)
-        if found is None:
-            found = cls(scene, calibration, calibrate)
-            if found.plain.assembly.lattice.mass_count <= SHARED_UP_TO:
-                cls._last = [(key, found)]
-        return found if u is None else found.at(u)
-
-    def at(self, u: np.ndarray, values: Values = MappingProxyType({})) -> Equilibrium:
-        """Return the derivatives at another equilibrium, with values of its own."""
-        other = object.__new__(type(self))
-        vars(other).update(self._parts, _parts=self._parts, u=u, values=values)
-        if values:
-            other.problem = other.with_values({})
-        return other
+    def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Base:
+        """Return the lattice with the springs of a calibration; a small one that is equal to the last is not
+        made again."""
+        key = scene, calibration, calibrate
+        if cls._last is not None and cls._last[0] == key:
+            return cls._last[1]
+        found = cls(*key)
+        if found.problem.assembly.lattice.mass_count <= SHARED_UP_TO:
+            cls._last = key, found
+        return found
 
     def sides(self, name: str) -> Sides:
-        """Return `both_sides` of a parameter, made once; of ν and h together, as one pass finds all four."""
+        """Return the problem and springs below and above a parameter, and the distance between both, made
+        once; of ν and h together, as one pass finds all four."""
         if name not in self._sides:
             even = self.calibration.cells is None and self.scene.material.poisson is not None
             names = TOGETHER if even and name in TOGETHER else (name,)
-            sides = both_sides(self.calibration, self.plain, names, self.calibrate)
-            self._sides |= zip(names, sides, strict=True)
+            each = both_sides(self.scene, self.calibration, names, self.calibrate)
+            for one, (ends, over) in zip(names, each, strict=True):
+                made = [(build_problem(*end, previous=self.problem), end[1]) for end in ends]
+                self._sides[one] = made, over
         return self._sides[name]
 
     def scaled_by(self, name: str) -> bool:
@@ -113,23 +96,38 @@ class Equilibrium:
         pulled = scene.natural is not None and scene.natural.pretension is not None
         return name == "density" or (self.calibration.method.startswith("consistent") and not pulled)
 
-    @property
-    def fields(self) -> dict[str, np.ndarray]:
-        """The fields over the cells that are not the scene's own."""
-        return _fields(self.values)
-
     def with_values(self, values: Values) -> Problem:
-        """Return the problem with more values."""
-        plain, assembly, both = self.plain, self.plain.assembly, {**self.values, **values}
-        if fields := _fields(both):
-            assembly = self.cells.assembly_of(fields)
-        loads = plain.loads
-        if assembly.cells is not plain.assembly.cells:
-            loads = Loads(plain.scene, assembly)
-        if FORCES in both:
+        """Return the problem with fields over the cells and forces."""
+        problem, assembly, loads = self.problem, self.problem.assembly, self.problem.loads
+        if values.keys() - {FORCES}:
+            assembly = self.cells.assembly_of(values)
+        if assembly.cells is not problem.assembly.cells:
+            loads = Loads(problem.scene, assembly)
+        if FORCES in values:
             loads = copy(loads)
-            loads.last_dead = loads.last_dead + both[FORCES]
-        return Problem(plain.scene, assembly, plain.constraints, loads, plain.items)
+            loads.last_dead = loads.last_dead + values[FORCES]
+        return Problem(problem.scene, assembly, problem.constraints, loads, problem.items)
+
+    def names(self) -> list[str]:
+        """Return the names of all derivatives."""
+        fields = (name for name in self.cells.base if self.cells.isotropic or name != POISSON)
+        return [FORCES, *fields, *names_of(self.scene)]
+
+
+class Equilibrium:
+    """Derivatives at a stable equilibrium u (n, 3) [m] of a lattice. values: of fields over the cells and
+    forces, by name, in place of the scene's own; problem: with them, if it is known."""
+
+    def __init__(self, base: Base, u: np.ndarray, values: Values = ITS_OWN, problem: Problem | None = None):
+        self.base, self.u, self.values = base, u, values
+        self.problem = problem or (base.with_values(values) if values else base.problem)
+
+    @classmethod
+    def of(
+        cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
+    ) -> Equilibrium:
+        """Return the derivatives at u of a scene's lattice with the springs of a calibration (`Base.of`)."""
+        return cls(Base.of(scene, calibration, calibrate), u)
 
     @cached_property
     def _factor(self) -> Factor:
@@ -148,11 +146,6 @@ class Equilibrium:
             return self._factor
         matrix = self.problem.system.matrix(self.problem.tangent(self.u, 1.0))
         return DirectSolver(symmetric=False).factor(sp.csc_array(matrix.T))
-
-    def names(self) -> list[str]:
-        """Return the names of all derivatives."""
-        fields = [name for name in NUMBERS if self.cells.isotropic or name != "poisson"]
-        return [FORCES, *(FIELD + name for name in (*fields, *STATE)), *names_of(self.scene)]
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives of J by name; by_displacement: ∂J/∂u (n, 3) of the masses."""
@@ -187,18 +180,17 @@ class Equilibrium:
         if name == FORCES:
             return self.problem.reduce(force := np.asarray(change)), np.zeros_like(self.u), force
         if name.startswith(FIELD):
-            base, way = self.field(name), np.asarray(change, dtype=float)
-            usual = 1e-5 * np.abs(base).max() or 1e-5
-            step = FIELD_STEP.get(name.removeprefix(FIELD), usual) / (np.abs(way).max() or 1.0)
-            low, high = (self.with_values({name: base + h * way}) for h in (-step, step))
-            change, over = 1.0, 2.0 * step
+            field, way = self.base.cells.value(name, self.values), np.asarray(change, dtype=float)
+            step = FIELD_STEP.get(name, 1e-5 * np.abs(field).max() or 1e-5) / (np.abs(way).max() or 1.0)
+            ends = ({**self.values, name: field + end * way} for end in (-step, step))
+            (low, high), scale = map(self.base.with_values, ends), 0.5 / step
         else:
-            pairs, over = self.sides(name)
+            sides, over = self.base.sides(name)
             low, high = (
-                Equilibrium(side.scene, springs).at(self.u, self.values).problem if self.values else side
-                for side, springs in pairs
+                Base(side.scene, springs).with_values(self.values) if self.values else side
+                for side, springs in sides
             )
-        scale = change / over
+            scale = change / over
         if low.assembly is high.assembly and low.constraints is high.constraints and not low.items:
             force = scale * (high.loads.force(self.u) - low.loads.force(self.u))
             return self.problem.reduce(force), np.zeros_like(self.u), force
@@ -213,18 +205,8 @@ class Equilibrium:
     @cached_property
     def complete(self) -> Assembly:
         """The lattice with springs of all kinds."""
-        return self.cells.complete(self.fields, self.problem.assembly)
-
-    def field(self, name: str) -> np.ndarray:
-        """Return a field over the cells as it is."""
-        known = [FIELD + one for one in (*NUMBERS, *STATE)]
-        if name not in known:
-            raise BadInput(f"{name}: choose from {', '.join(known)}")
-        return np.asarray(self.values.get(name, self.cells.base[name.removeprefix(FIELD)]))
-
-
-def _fields(values: Values) -> dict[str, np.ndarray]:
-    return {name.removeprefix(FIELD): of for name, of in values.items() if name.startswith(FIELD)}
+        assembly = self.problem.assembly
+        return assembly if len(assembly.springs[2]) else self.base.cells.assembly_of(self.values, True)
 
 
 class Gradient(Mapping[str, Any]):
@@ -244,21 +226,20 @@ class Gradient(Mapping[str, Any]):
 
     @cached_property
     def _by_state(self) -> dict[str, np.ndarray]:
-        return self._of.cells.by_state(self._of.fields, self._of.complete, self._by_constants)
+        of = self._of
+        return of.base.cells.by_state(of.values, of.complete, self._by_constants)
 
     def __getitem__(self, name: str) -> Any:
-        of, name = self._of, short_name(name)
+        of, base, name = self._of, self._of.base, short_name(name)
         if name == FORCES:
             return self.by_forces
+        if name in STATE:
+            return self._by_state[name]
         if name.startswith(FIELD):
-            of.field(name)
-            if (field := name.removeprefix(FIELD)) in STATE:
-                return self._by_state[field]
-            return of.cells.by_number(field, of.fields, of.complete, self._by_constants, self.by_forces)
-        field = FIELD + name
-        if of.scaled_by(name) and field not in of.values:
-            value = getattr(of.plain.scene.material, name)
-            return float(np.sum(self[field] * of.field(field)) / value)
+            return base.cells.by_number(name, of.values, of.complete, self._by_constants, self.by_forces)
+        if base.scaled_by(name) and (field := FIELD + name) not in of.values:
+            share = base.cells.base[field] / getattr(base.scene.material, name)
+            return float(np.sum(self[field] * share))
         with one_blas_thread():
             rows, moved, _ = of.rates(name)
         return float(self._adjoint @ rows + np.sum(self._by * moved))
@@ -268,7 +249,7 @@ class Gradient(Mapping[str, Any]):
         return Gradient(self._of, np.zeros_like(self._by), self._adjoint)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._of.names())
+        return iter(self._of.base.names())
 
     def __len__(self) -> int:
-        return len(self._of.names())
+        return len(self._of.base.names())

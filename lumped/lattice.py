@@ -15,12 +15,10 @@ around them (of equal cells ½ on edges, ¼ at corners). Cells beyond the outlin
 are absent: they have no springs and no mass, and masses between them alone are numbered but do not move.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
 
@@ -149,7 +147,7 @@ class Lattice:
         """Masses by plan position, positions at rest, and areas of the cells."""
         return self.columns(), self.positions, self.cell_areas
 
-    def at_distance(self, layer_distance: float, per_area: np.ndarray | None) -> Lattice:
+    def at_distance(self, layer_distance: float, per_area: np.ndarray | None) -> Self:
         """Return the lattice with another distance of its layers [m], and mass per area of its cells."""
         if layer_distance == self.layer_distance and per_area is self.per_area:
             return self

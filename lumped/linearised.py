@@ -32,7 +32,7 @@ from scipy.sparse.linalg import splu
 
 from lumped.calibration import Calibration, default
 from lumped.dynamics.system import System
-from lumped.gradient import Equilibrium
+from lumped.gradient import Base, Equilibrium
 from lumped.loads import Loads
 from lumped.state_space import StateSpace
 from lumped.statics.problem import Problem
@@ -229,7 +229,7 @@ def _inputs(
     each; observation: (outputs, 3 size) map of displacements to the probes."""
     scene = problem.scene
     columns: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]] = []
-    zero, at = np.zeros(u.size), Equilibrium(scene, calibration).at(u)
+    zero, at = np.zeros(u.size), Equilibrium(Base(scene, calibration), u)
     for name, part in _loads(scene):
         columns.append((name, Loads(part, problem.assembly).force(u).ravel(), zero, zero))
     for number, row in enumerate(observation):

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumped.calibration import Calibration
-from lumped.gradient import FIELD, FORCES
+from lumped.cell_fields import YOUNG
+from lumped.gradient import FORCES
 from lumped.parameter_sides import Calibrate
 from lumped.sensitivity import Differentiable
 from lumped.springs import all_families
@@ -38,7 +39,6 @@ TOLERANCE = 1e-11  # of a residual, relative to the loads
 STEPS = 30
 PART = 64  # designs that a thread takes at a time
 NEAR = 1e-3  # of the loads, the residual from which on a design has a tangent of its own
-YOUNG = FIELD + "young"
 
 
 @dataclass(frozen=True)
@@ -98,10 +98,8 @@ def solve_many(
     out, done = np.full((count, *start.shape), np.nan), np.zeros(count, dtype=bool)
 
     def solved(number: int) -> Status:
-        out[number] = np.nan
         _, path = sheet.path({name: values[number] for name, values in designs.items()}, start)
-        if path.status is Status.CONVERGED:
-            out[number] = path.state.u
+        out[number] = path.state.u if path.status is Status.CONVERGED else np.nan
         return path.status
 
     with one_blas_thread(), ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
@@ -132,20 +130,18 @@ def _together(
     """Return the function that sets the displacements of a part of the designs, and whether each has
     converged."""
     problem, assembly, band = sheet.problem, sheet.problem.assembly, sheet.problem.system.band
-    base = sheet.base[YOUNG].ravel()
-    of_cells = sheet.cells.by_cells(sheet.calibration.constants, assembly, {}, None)
+    base, forces = sheet.base[YOUNG].ravel(), np.broadcast_to(designs.get(FORCES, 0.0), out.shape)
+    young = np.broadcast_to(np.reshape(designs.get(YOUNG, base), (-1, base.size)), (len(out), base.size))
+    of_cells = sheet.cells.by_cells(sheet.calibration.constants, assembly, {})
     assert band is not None
     of_start, _ = banded.factored(problem.tangent(start, 1.0), band)
     free, none = problem.constraints.transform_arrays, all_families.NO_STRESSES
     given = start, of_start, assembly.all_families.springs
 
     def solve(part: slice) -> None:
-        young = np.asarray(designs[YOUNG][part] if YOUNG in designs else base[None].repeat(len(out[part]), 0))
-        factor = young.reshape(len(young), -1) / np.where(base > 0.0, base, 1.0)
+        factor = young[part] / np.where(base > 0.0, base, 1.0)
         links, *arrays = (np.einsum("qmn,bqm->bmn", each, factor[:, cells]) for cells, each in of_cells[:3])
-        arrays = [links[..., 0], *arrays, np.zeros_like(out[part]) + problem.loads.last_dead]
-        if FORCES in designs:
-            arrays[-1] += designs[FORCES][part]
+        arrays = [links[..., 0], *arrays, forces[part] + problem.loads.last_dead]
         rounding = assembly.rounding * assembly.all_families.link_stiffness_norm * factor.max(initial=1.0)
         ends = free, band, float(rounding), none, out[part], done[part]
         correct(*given, *map(np.ascontiguousarray, arrays), *ends)

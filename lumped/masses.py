@@ -49,9 +49,9 @@ from typing import Literal
 import numpy as np
 import scipy.sparse as sp
 
-from lumped.carried import point_masses
 from lumped.grid_lines import Lines
 from lumped.lattice import Lattice
+from lumped.payloads import point_masses
 from lumped.sections import CellSection
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
@@ -65,7 +65,7 @@ Inertia = Distribution | Literal["higher-order"]
 def masses(
     scene: Scene, lattice: Lattice, distribution: Distribution = "tributary", cells: CellSection | None = None
 ) -> np.ndarray:
-    """Return the mass of every lumped mass, (n,) [kg], with its part of the payloads (`lumped.carried`); see
+    """Return the mass of every lumped mass, (n,) [kg], with its part of the payloads (`lumped.payloads`); see
     `sheet_masses`."""
     return sheet_masses(scene, lattice, distribution, cells) + point_masses(scene, lattice)
 

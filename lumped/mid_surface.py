@@ -14,8 +14,6 @@ A linear map of the masses' displacement; its transpose shares a force at a poin
 as loads do it among the four next to it (order 1).
 """
 
-from __future__ import annotations
-
 from functools import cache
 from itertools import product
 

@@ -16,14 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from lumped.calibration import Calibration
-from lumped.gradient import FIELD, FORCES, Equilibrium, Gradient
-from lumped.statics.problem import Problem
+from lumped.cell_fields import DENSITY, FIELD, THICKNESS
+from lumped.gradient import FORCES, Equilibrium, Gradient
 from sheetbench.errors import BadInput
 from sheetbench.numerics.threads import one_blas_thread
 
 SMALL = 2e-4  # of the thickness, that a mode moves the sheet for a difference
-INERT = (FIELD + "density", FIELD + "thickness", FORCES)
+INERT = (DENSITY, THICKNESS, FORCES)
 
 
 class ModeGradient(Mapping[str, Any]):
@@ -31,32 +30,26 @@ class ModeGradient(Mapping[str, Any]):
     about its shape under load, which changes too; inertia: makes Tᵀ M T (m, m) of a problem with springs."""
 
     def __init__(
-        self,
-        of: Equilibrium,
-        mode: np.ndarray,
-        squared: float,
-        loaded: bool,
-        inertia: Callable[[Problem, Calibration], Any],
+        self, of: Equilibrium, mode: np.ndarray, squared: float, loaded: bool, inertia: Callable[..., Any]
     ):
         problem, u, shape, none = of.problem, of.u, of.problem.expand(mode), np.zeros_like(of.u)
         step = SMALL * problem.scene.sheet.thickness / np.abs(shape).max()
-        ends = [(u + end * shape, 1.0 / (2.0 * end)) for end in (step, -step)]
-        sides = (of.at(end) for end, _ in ends)
-        self._terms = [(Gradient(side, none, mode), -by) for side, (_, by) in zip(sides, ends, strict=True)]
+        ends = [(u + end * shape, 0.5 / end) for end in (step, -step)]
+        self._terms = [(Gradient(Equilibrium(of.base, at), none, mode), -by) for at, by in ends]
         if loaded:
             with one_blas_thread():
                 third = sum(by * problem.system.apply(problem.tangent(at, 1.0), shape) for at, by in ends)
             self._terms.append((of.pullback(np.asarray(third)).at_rest(), 1.0))
-        self._of, self._mode, self._squared, self._inertia = of, mode, squared, inertia
+        self._of, self._mode, self._squared, self._inertia = of.base, mode, squared, inertia
 
     def __getitem__(self, name: str) -> Any:
         if name in INERT:
             raise BadInput(f"{name}: frequencies have no derivative by it; take density or thickness")
         found = sum(by * term[name] for term, by in self._terms)
-        if not (name.startswith(FIELD) or name in self._of.constants):
-            (low, high), over = self._of.sides(name)
-            masses = [self._mode @ (self._inertia(*side) @ self._mode) for side in (low, high)]
-            found -= self._squared * (masses[1] - masses[0]) / over
+        if not (name.startswith(FIELD) or name in self._of.calibration.constants.names()):
+            sides, over = self._of.sides(name)
+            low, high = (self._mode @ (self._inertia(*side) @ self._mode) for side in sides)
+            found -= self._squared * (high - low) / over
         return found / (4.0 * np.pi * np.sqrt(self._squared))
 
     def __iter__(self) -> Iterator[str]:

@@ -54,20 +54,17 @@ def grown(lattice: Lattice, families: Sequence[Family], strain: np.ndarray) -> l
 
 
 def powers(
-    lattice: Lattice,
-    families: Sequence[Family],
-    state: tuple[np.ndarray, np.ndarray],
-    by: Sequence[np.ndarray],
+    lattice: Lattice, families: Sequence[Family], state: Sequence[np.ndarray], by: Sequence[np.ndarray]
 ) -> np.ndarray:
     """Return the derivatives of a power by the cells' natural strain and curvature, xx, yy and xy, (rows,
     columns, 6). families: of a flat sheet; state: both, (rows, columns, 2, 2); by: the derivatives by every
     spring's constants and natural δg₀ in this state."""
-    found = np.zeros((lattice.cell_areas.size, 6))
+    rates = np.zeros((lattice.cell_areas.size, 6))
     for springs, power in zip(_natural(lattice, families), by, strict=True):
         if springs is not None:
-            for out, of in zip(found.T, springs.powers(*state, power), strict=True):
+            for out, of in zip(rates.T, springs.powers(state, power), strict=True):
                 out += np.bincount(springs.cells.ravel(), of.ravel(), len(out))
-    return found.reshape(*lattice.cell_areas.shape, 6)
+    return rates.reshape(*lattice.cell_areas.shape, 6)
 
 
 @dataclass(frozen=True)
@@ -116,21 +113,21 @@ class _Natural:
             return replace(self.family, rest_length=natural[0], natural=natural[1])
         return replace(self.family, stiffness=self.stiffness, natural=natural)
 
-    def powers(self, strain: np.ndarray, k: np.ndarray, power: np.ndarray) -> np.ndarray:
+    def powers(self, state: Sequence[np.ndarray], power: np.ndarray) -> np.ndarray:
         """Return the derivatives (6, m, q); see `powers` above."""
-        plan, growth = self._growth(strain, k)
-        found, by = np.zeros((6, *self.cells.shape)), power[:, None, -self.sides.shape[2] :]
+        plan, growth = self._growth(*state)
+        rates, by = np.zeros((6, *self.cells.shape)), power[:, None, -self.sides.shape[2] :]
         for a, other, other_growth, z in zip(plan, plan[::-1], growth[::-1], self.heights.T, strict=True):
             b = other + other_growth
             xx, yy, xy, yx = ((a[..., i] * b[..., j] * by).sum(axis=-1) for i, j in COMPONENTS)
             for number, of in enumerate((xx, yy, xy + yx)):
-                found[number] += of
-                found[number + 3] -= z[:, None] * of
-        found *= self.shares
+                rates[number] += of
+                rates[number + 3] -= z[:, None] * of
+        rates *= self.shares
         if isinstance(self.family, SpringCells):
-            by_constants = self._of_stiffness(strain)
-            found[:3, :, 0] += np.einsum("cnw,cn->wc", by_constants, power[:, : by_constants.shape[1]])
-        return found
+            by_constants = self._of_stiffness(state[0])
+            rates[:3, :, 0] += np.einsum("cnw,cn->wc", by_constants, power[:, : by_constants.shape[1]])
+        return rates
 
     def _of_stiffness(self, strain: np.ndarray) -> np.ndarray:
         """Return the rates (c, n, 3) of a cell's constants, by the change of its natural sides."""

@@ -1,9 +1,9 @@
-"""A lattice with a parameter of its scene a little below and above its value, for central differences.
+"""A scene and its springs with a parameter a little below and above its value, for central differences.
 
-Springs, supports and loads are made again where they follow from the parameter; the rest is shared with the
-given lattice. The residual is linear in every spring constant, and its difference is exact but for rounding;
-in the thickness, ν, a layer distance, a curvature or a tilt its relative error is of order 1e-8. A load at a
-line of the grid, where its shares have a kink, has the mean of both sides.
+Springs are calibrated again where they follow from the parameter. The residual is linear in every spring
+constant, and its difference is exact but for rounding; in the thickness, ν, a layer distance, a curvature or
+a tilt its relative error is of order 1e-8. A load at a line of the grid, where its shares have a kink, has
+the mean of both sides.
 """
 
 from __future__ import annotations
@@ -20,8 +20,6 @@ from lumped.calibration.closed_form import NoClosedForm
 from lumped.calibration.consistent import springs_of_sheets
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import sections_of
-from lumped.statics.build import build_problem
-from lumped.statics.problem import Problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
@@ -38,38 +36,35 @@ STEP_OF |= {"temperature": 1e-3, "poisson": 4e-6}
 PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
 
 Calibrate = Callable[[Scene], Calibration]
-Sides = tuple[list[tuple[Problem, Calibration]], float]  # below and above, and the distance between both
+Changed = tuple[Scene, Calibration]
+Sides = tuple[list[Changed], float]  # below and above a parameter, and the distance between both
 
 
 def both_sides(
+    scene: Scene,
     calibration: Calibration,
-    problem: Problem,
     names: Sequence[str],
     calibrate: Calibrate | None = None,
     share: float = 0.0,
 ) -> list[Sides]:
-    """Return the problem and springs a little below and above each of some parameters of one kind, and the
-    distance between both; share: of its value, for steps by that share."""
-    scene, constants, changes = problem.scene, calibration.constants, list[tuple[str, float]]()
+    """Return scene and springs a little below and above each of some parameters of one kind, and the distance
+    between both; share: of its value, for steps by that share."""
+    known, changes = calibration.constants, list[tuple[str, float]]()
+    of_springs = names[0] in (*known.names(), "layer_distance")
     for name in map(short_name, names):
-        if of_springs := name in (*constants.names(), "layer_distance"):
-            value, low, high = constants.value(name), -np.inf, np.inf
-        else:
-            _, _, value, low, high = parameter(scene, name)
+        value, low, high = (known.value(name), -np.inf, np.inf) if of_springs else parameter(scene, name)[2:]
         key = name.partition(".")[2] if name.startswith(PATCH) else name
         if scene.obstacles and key == "thickness":  # which moves the surface that presses in
             key = OBSTACLE
-        step = next((h for kind, h in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
-        step = share * abs(value) or step
-        if step == 0.0:
+        usual = next((step for kind, step in STEP_OF.items() if key.startswith(kind)), STEP * abs(value))
+        if (step := share * abs(value) or usual) == 0.0:
             raise BadInput(f"parameter {name!r} is zero: differences need a scale")
         changes += [(name, end) for end in np.clip([value - step, value + step], low, high).tolist()]
     if of_springs:
         sides = [(scene, calibration.with_constant(*change)) for change in changes]
     else:
         sides = of_changed(scene, calibration, changes, calibrate, names[0].startswith(EDGES))
-    made = [(build_problem(*side, previous=problem), side[1]) for side in sides]
-    return [(made[n : n + 2], changes[n + 1][1] - changes[n][1]) for n in range(0, len(made), 2)]
+    return [(sides[n : n + 2], changes[n + 1][1] - changes[n][1]) for n in range(0, len(sides), 2)]
 
 
 def of_changed(
@@ -78,9 +73,9 @@ def of_changed(
     changes: Sequence[tuple[str, float]],
     calibrate: Calibrate | None,
     checked: bool = True,
-) -> list[tuple[Scene, Calibration]]:
-    """Return the scenes with one other value each (`put`), and the springs of each, calibrated again if they
-    depend on it; checked: whether the first is, as `put` does."""
+) -> list[Changed]:
+    """Return the scene and springs with one other value each, the springs calibrated again if they depend on
+    it; checked: whether the first scene is, as `put` does."""
     name, _ = changes[0]
     checked &= not name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
     scenes = [put(scene, *change, checked and change is changes[0]) for change in changes]

@@ -20,7 +20,7 @@ from sheetbench.scenes.meaning.natural_state import NaturalState, Source, held_a
 from sheetbench.scenes.objects.natural import Natural
 
 
-def stretched(scene: Scene, assembly: Assembly) -> Scene:
+def with_pretension_strain(scene: Scene, assembly: Assembly) -> Scene:
     """Return the scene with the natural strain that gives its pretension in a lattice without a natural
     state."""
 
@@ -67,4 +67,4 @@ def calibrated_at_rest(scene: Scene, calibrate: Callable[[Sheet], Calibration]) 
     springs = calibrate(sheet_at_rest(scene))
     if scene.natural is None or scene.natural.pretension is None:
         return springs
-    return calibrate(sheet_at_rest(stretched(scene, Assembly(scene.sheet, springs))))
+    return calibrate(sheet_at_rest(with_pretension_strain(scene, Assembly(scene.sheet, springs))))

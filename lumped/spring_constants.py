@@ -169,12 +169,6 @@ class Springs:
         times = {name: 1.0 if name == "gent_limit" else factor for name in self.of if name not in EDGES_OWN}
         return replace(self, of={name: tuple(self[name] * by) for name, by in times.items()})
 
-    def less(self, other: Springs) -> Springs:
-        """Return the differences from springs of equal directions, with the stretches r of edges as here."""
-        changing = (name for name in self.of if not name.endswith("edge_coupling"))
-        pairs = {name: zip(self.of[name], other.of[name], strict=True) for name in changing}
-        return replace(self, of=self.of | {name: tuple(a - b for a, b in of) for name, of in pairs.items()})
-
     def names(self) -> list[str]:
         """Return the names of the constants that are not zero, one a direction if directions differ."""
         names: list[str] = []

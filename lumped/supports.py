@@ -10,14 +10,12 @@ symmetric  the component across the edge held, in every layer
 The places of bent and tilted edges at a load factor λ are defined by the scene (`scenes.meaning.kinematics`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import scipy.sparse as sp
@@ -54,11 +52,11 @@ class Constraints:
     coupling: Coupling | None = None
     _reduced: dict[tuple[MassPattern, bool], ReducedSystem] = field(default_factory=dict)
 
-    def on(self, lattice: Lattice) -> Constraints:
+    def on(self, lattice: Lattice) -> Self:
         """Return the constraints for a lattice with an equal plan."""
-        return self if lattice is self.lattice else self.having(lattice=lattice)
+        return self if lattice is self.lattice else self.with_shared_arrays(lattice=lattice)
 
-    def having(self, **parts: Any) -> Constraints:
+    def with_shared_arrays(self, **parts: Any) -> Self:
         """Return constraints with an equal transform, whose arrays are shared."""
         arrays, other = self.transform_arrays, copy(self)
         vars(other).update(parts, transform_arrays=arrays)
@@ -153,13 +151,13 @@ def _constrain(
 ) -> Constraints:
     places = [{key: PLACES[key] for key in PLACES if key in type(one).model_fields} for one in supports]
     still = tuple(one.model_copy(update=of) for one, of in zip(supports, places, strict=True))
-    found = _constrain_still(still, reached, lattice, coupling)
-    shift = np.zeros(found.held.shape)
+    constraints = _constrain_still(still, reached, lattice, coupling)
+    shift = np.zeros(constraints.held.shape)
     for moved in shifts(supports):
-        masses = found.holders[moved.support][0]
+        masses = constraints.holders[moved.support][0]
         for axis, distance in zip(moved.axes, moved.displacement, strict=True):
             shift[masses, axis] = distance
-    return found.having(driven=bent_or_tilted(supports, sheet), shift=shift)
+    return constraints.with_shared_arrays(driven=bent_or_tilted(supports, sheet), shift=shift)
 
 
 @cached(last=16, most=SHARED_UP_TO, size=_size)

@@ -13,11 +13,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.calibration import Calibration, default
-from lumped.carried import pairs_of, rotary_masses
 from lumped.gradient import Equilibrium
 from lumped.masses import Inertia, mass_matrix
 from lumped.mid_surface import MidSurface
 from lumped.mode_sensitivity import ModeGradient
+from lumped.payloads import pairs_of, rotary_masses
 from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
 from lumped.statics.solver import stable_equilibrium
@@ -150,31 +150,18 @@ def modes(
     frequencies = np.sqrt(np.maximum(values[order], 0.0)) / (2.0 * np.pi)
     loaded = about == "deformed"
     bare = scene if loaded else scene.replace(loads=(), gravity=None)
-    elastic = values[rigid:], vectors[:, rigid:]
-    gradient = partial(_frequency_gradient, bare, calibration, at, loaded, shared, *elastic)
+
+    def mass_of(problem: Problem, springs: Calibration) -> Any:
+        return _masses(problem, shared, springs)[2]
+
+    def gradient(number: int) -> ModeGradient:
+        mode, squared = vectors[:, rigid + number - 1], float(values[rigid + number - 1])
+        of, size = Equilibrium.of(bare, calibration, at), np.sqrt(mode @ (mass @ mode))
+        return ModeGradient(of, mode / size, squared, loaded, mass_of)
+
     gradient_of = None if problem.prestrained and not loaded else gradient
     surface = partial(problem.middle, at)
     return Modes(frequencies, shapes, rigid, unknowns, surface, gradient_of=gradient_of)
-
-
-def _frequency_gradient(
-    scene: Scene,
-    calibration: Calibration,
-    u: np.ndarray,
-    loaded: bool,
-    shared: Inertia,
-    squares: np.ndarray,
-    vectors: np.ndarray,
-    number: int,
-) -> ModeGradient:
-    """Return the derivatives df/dθ of a mode's frequency about an equilibrium u (n, 3) [m]."""
-
-    def inertia(problem: Problem, springs: Calibration) -> Any:
-        return _masses(problem, shared, springs)[2]
-
-    of, mode = Equilibrium.of(scene, calibration, u), vectors[:, number - 1]
-    mode = mode / np.sqrt(mode @ (inertia(of.plain, calibration) @ mode))
-    return ModeGradient(of, mode, float(squares[number - 1]), loaded, inertia)
 
 
 def _masses(problem: Problem, shared: Inertia, calibration: Calibration) -> tuple[Any, Any, Any]:

@@ -4,8 +4,6 @@ The module has names and words alone, so that the command line's help need not i
 `lumped.INTEGRATORS` and `fem_reference.MODELS` make their entries of its names.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal

@@ -23,7 +23,7 @@ POLL = 0.05  # s between checks of the time and of the output's size
 
 
 @dataclass(frozen=True)
-class Ended:
+class ProcessResult:
     """End of a program: its exit status, negative for a signal, its output, the reason if it was stopped."""
 
     code: int
@@ -54,7 +54,7 @@ def run(
     most: int = MOST,
     folder: Path | None = None,
     variables: Mapping[str, str] | None = None,
-) -> Ended:
+) -> ProcessResult:
     """Run a program with a question on its standard input.
 
     seconds: limit of time. memory_mb: limit of address space by the shell's ulimit, None for none. most:
@@ -94,4 +94,4 @@ def run(
         complaint.seek(max(0, complaint.seek(0, os.SEEK_END) - TAIL))
         lines = complaint.read().decode("utf-8", "replace").strip().splitlines()
         last_line = foreign(lines[-1]) if lines else ""
-        return Ended(process.returncode, answer.read(most), last_line, stopped, took)
+        return ProcessResult(process.returncode, answer.read(most), last_line, stopped, took)

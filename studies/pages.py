@@ -7,8 +7,6 @@ page.
     python -m studies.pages FOLDER    keeps the answer that a study or a verb has written with --out FOLDER
 """
 
-from __future__ import annotations
-
 import json
 import platform
 import sys

@@ -9,7 +9,7 @@ import sheetbench as sb
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Lattice
 from lumped.assembly import Assembly
-from lumped.pretension import stretched
+from lumped.pretension import with_pretension_strain
 from lumped.statics.solver import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.scenes import (
@@ -245,7 +245,7 @@ def test_a_lattices_pretension_is_not_that_of_its_cut_cells(cutouts):
     own = Natural(pretension=(60.0, 30.0))
     plain = Scene("cut", Sheet(0.3, 0.18, 9e-4), MATERIAL, supports=[clamp], natural=own)
     found = [
-        stretched(
+        with_pretension_strain(
             of, Assembly(of.sheet, resolve(of, Lattice(grid=(11, 9), grading=0)).springs)
         ).natural.strain
         for of in (plain.replace(supports=CLAMP), plain.replace(cutouts=cutouts))

@@ -2,8 +2,6 @@
 of `sheetbench calibrate`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial

@@ -8,8 +8,6 @@ measured range; stiffnesses and E∞ are the nonnegative least squares of the re
 Rajagopal 2024, Sensors 24, 6137.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from math import ceil, log10, pi
 from pathlib import Path

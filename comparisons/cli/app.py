@@ -94,7 +94,7 @@ def main(arguments: list[str] | None = None) -> None:
             raise SystemExit(BAD_INPUT)
     if arguments == sys.argv[1:]:
         startup.begin()
-    with interruption.heeded(last), messages.in_lines():
+    with interruption.end_after_interrupt(last), messages.in_lines():
         try:
             try:
                 if arguments in (["--version"], ["-V"]):  # typer would import pydantic to read the flag

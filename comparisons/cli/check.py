@@ -36,8 +36,8 @@ def command(
 
     if schema:
         with output.open(variant={"--schema": True}) as out:
-            found = Schema()
-            return out.show(found, instead=None if output.out else to_json(found.document()))
+            answer = Schema()
+            return out.show(answer, instead=None if output.out else to_json(answer.document()))
     if scene is None:
         with output.open() as out:
             return out.show(Catalogue())

@@ -25,7 +25,7 @@ REFRESHED = 0.3  # s between changes of the line of progress in a notebook
 
 
 @contextmanager
-def speaking(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
+def verbosity(quiet: bool = False, all_notes: bool = False) -> Iterator[None]:
     """Suppress progress and notes on standard error, or show all notes of an answer, for a block."""
     global _quiet, verbose
     _quiet, verbose = quiet, all_notes
@@ -125,7 +125,7 @@ def show(table: Table) -> None:
             out.print(Text(line), soft_wrap=True)
 
 
-def asks() -> bool:
+def is_interactive() -> bool:
     """Return whether input and output are a terminal, for questions to the user."""
     return out.is_terminal and sys.stdin is not None and sys.stdin.isatty()
 

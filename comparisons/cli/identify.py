@@ -79,7 +79,7 @@ def command(
         raise BadInput("identify: give a SCENE and --measured FILE, or --tensile FILE")
     from comparisons.comparison.comparison import load_static
     from comparisons.identification.identification import identify
-    from comparisons.identification.model import NotReached
+    from comparisons.identification.model import NoAnswer
     from comparisons.models.grids import parse_elements
     from comparisons.models.spec import Lattice
 
@@ -98,6 +98,6 @@ def command(
                 uncertainty=uncertainty,
                 refine=refine,
             )
-        except NotReached as error:
+        except NoAnswer as error:
             out.stop(f"no answer with the scene's own values: {error}")
         return out.show(fit)

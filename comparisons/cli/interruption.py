@@ -22,7 +22,7 @@ NOTHING = "nothing was kept"
 _left_behind, _folder = NOTHING, ""
 
 
-def promise(verb: str, out: object, resumed: bool) -> None:
+def set_interrupt_notice(verb: str, out: object, resumed: bool) -> None:
     """Set the line for an interrupt of a verb; resumed: whether the verb can resume from its --out."""
     global _left_behind, _folder
     _folder = ""
@@ -43,7 +43,7 @@ def report() -> None:
 
 
 @contextmanager
-def heeded(last: bool = False) -> Iterator[None]:
+def end_after_interrupt(last: bool = False) -> Iterator[None]:
     """End a block within PATIENCE after Ctrl-C; has an effect in the main thread alone. last: whether the
     process ends with the block; later signals are then ignored."""
     if threading.current_thread() is not threading.main_thread():

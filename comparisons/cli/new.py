@@ -58,7 +58,7 @@ def command(
     if not file.parent.is_dir():
         raise BadInput(f"{file}: there is no folder {file.parent}")
     given, pressure = {key: value for key, value in sheet.values.items() if value is not None}, 0.0
-    if not given and not clamped and console.asks():
+    if not given and not clamped and console.is_interactive():
         given, clamped, pressure = _prompted()
     sheet_values, material_values = (
         {key: given.get(key, defaults[key]) for key in defaults} for defaults in (SHEET, MATERIAL)

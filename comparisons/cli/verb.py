@@ -171,7 +171,7 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
     @wraps(command)
     def run(*, quiet: bool, verbose: bool, **values: Any) -> None:
         resumed = of_campaign or values.get("duration") is not None
-        interruption.promise(name, values.get("out"), resumed)
+        interruption.set_interrupt_notice(name, values.get("out"), resumed)
         values = declared.itemised(values)
         declared.require(values, shown)
         no_pictures = {} if draws else {"no_pictures": values.pop("no_pictures")}
@@ -180,7 +180,7 @@ def as_verb(name: str, command: Command) -> Callable[..., None]:
             if quiet or verbose:
                 from comparisons.cli import console  # imports rich, slow for help
 
-                stack.enter_context(console.speaking(quiet, verbose))
+                stack.enter_context(console.verbosity(quiet, verbose))
             if values.get("large"):
                 from comparisons.models.context import running
 

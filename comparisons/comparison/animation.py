@@ -1,7 +1,5 @@
 """Animation of sheets at true scale: frames with time and colour bar, as a GIF of 480 pixels below 1 MB."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -32,7 +30,7 @@ PER_SECOND, MOST = 8, 34  # frames per second, largest number of frames
 def animate(scene: Scene, histories: Sequence[History], paths: Sequence[Path]) -> None:
     """Write the frames of runs as GIF to every path, several runs side by side with their labels. Raises
     NoPicture without off-screen drawing."""
-    if reason := offscreen.why_not():
+    if reason := offscreen.unavailable_reason():
         raise NoPicture(reason)
     labels = [history.label for history in histories] if len(histories) > 1 else [""]
     images = _images(scene, [frames(history) for history in histories], labels)

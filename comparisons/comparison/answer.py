@@ -1,7 +1,5 @@
 """The answer of `sheetbench compare`: document, tables, figures and files of a comparison."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property, partial
@@ -11,7 +9,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from comparisons.comparison.errors import ROUND_OFF, Compared
+from comparisons.comparison.errors import ROUND_OFF, SceneSolutions
 from comparisons.models.expected_error import ExpectedError, NoEstimate
 from comparisons.models.grading import choice_notes
 from comparisons.pictures.array_files import write_mesh
@@ -87,7 +85,7 @@ def settling(scene: Scene) -> str:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison(Compared, Answer):
+class Comparison(SceneSolutions, Answer):
     """A comparison of solutions with its document, tables, figures, files and notes; sensitive_to: names of
     parameters by which the probes' derivatives are shown."""
 

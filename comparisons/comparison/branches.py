@@ -11,8 +11,6 @@ path. If neither stays, this grid has no corresponding equilibrium, or the answe
 (`far_apart`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -30,7 +28,7 @@ ROUNDING = 1e-9  # of the longer side
 STEP = 1e-3  # of the shorter side: difference quotients of the mid-surface
 
 
-def joined(
+def on_one_branch(
     lattice: Resolved[Lattice], elements: Resolved[Elements], first: Solution, reference: Solution
 ) -> tuple[Solution, Solution, str] | None:
     """Return both answers on one branch and a sentence, or None.
@@ -43,7 +41,7 @@ def joined(
     points = scene.probe_points()
     first_u, reference_u = first.displacement(points), reference.displacement(points)
     converged = first.status is reference.status is Status.CONVERGED
-    if not far(first_u, reference_u) or not supported or not converged:
+    if not may_differ(first_u, reference_u) or not supported or not converged:
         return None
     if first.touched != reference.touched:
         return None
@@ -66,7 +64,7 @@ def joined(
     return None
 
 
-def far(u: np.ndarray, other: np.ndarray) -> bool:
+def may_differ(u: np.ndarray, other: np.ndarray) -> bool:
     """Return whether displacements at the probes (n, 3) [m] differ so much that branches may differ."""
     return bool(np.abs(u - other).max() > FAR * np.abs(other).max())
 

@@ -1,7 +1,5 @@
 """A scene solved by a lattice, a reference, and further models."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from functools import partial
@@ -19,9 +17,9 @@ from comparisons.models.expected_error import expected_error
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import warm_both
-from comparisons.models.spec import Elements, Lattice, Spec, parse, unlike
+from comparisons.models.spec import Elements, Lattice, Spec, parse, unique_name
 from comparisons.sweep import load
-from comparisons.sweep.in_process import solve_in_process, with_room
+from comparisons.sweep.in_process import solve_if_room, solve_in_process
 from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.choices import REFERENCE
@@ -64,7 +62,7 @@ def compare(
         by_name[COMPANION] = resolve(scene, lattice.but(calibration="uniform", grading=None))
     for spec in models:
         further = resolve(scene, parse(spec))
-        by_name[unlike(shown_name(further.spec.model), by_name)] = further
+        by_name[unique_name(shown_name(further.spec.model), by_name)] = further
     if not compiled_before(fronts.__file__) and (os.cpu_count() or 1) > 1:  # the first run on this machine
         warm_both(lattice_model.spec.model, reference_model.spec.model)
     require_settling(by_name.values() if settle else ())
@@ -73,11 +71,11 @@ def compare(
         rows.append(solved_from_motion(model, name) if settle else solve_in_process(model, name))
         context().solved(rows[-1].answer)
     solutions, disagreement = [row.answer for row in rows], ""
-    joined = branches.joined(lattice_model, reference_model, *solutions[:2])
-    restarted = settle or (joined is not None and joined[1] is not solutions[1])
-    if joined is not None:
-        solutions[0], solutions[1], disagreement = joined
-    solve = partial(with_room, scene)
+    common = branches.on_one_branch(lattice_model, reference_model, *solutions[:2])
+    restarted = settle or (common is not None and common[1] is not solutions[1])
+    if common is not None:
+        solutions[0], solutions[1], disagreement = common
+    solve = partial(solve_if_room, scene)
     expected = None if settle else expected_error(scene, lattice_model.spec, solutions[0], solve)
     bar = None
     branch_may_change = restarted or solutions[1].status is Status.UNSTABLE  # on coarser meshes
@@ -91,7 +89,7 @@ def compare(
         disagreement, other_branch = far_apart_note(lattice_model, answers, bar_value, solve)
     return Comparison(
         *(scene, answers, bar, disagreement, expected),
-        several=settle or joined is not None or other_branch,
+        several=settle or common is not None or other_branch,
         other_branch=other_branch,
         busy=tuple(load.warnings([{"load_average": load.average()}])),
         law_chosen=reference_model.spec.law is not None,

@@ -1,7 +1,5 @@
 """Convergence of many models on many scenes, with meshes from lists, through a campaign's store."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Unpack
 

@@ -1,8 +1,6 @@
 """Converged limits and error bars of models on scenes, and their differences: the answer of `sheetbench
 crosscheck`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property

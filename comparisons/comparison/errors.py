@@ -4,8 +4,6 @@ Errors are None too if one of the models did not reach the full load, relative o
 reference moves by no more than round-off.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -46,7 +44,7 @@ class Difference:
 
 
 @dataclass(frozen=True, repr=False)
-class Compared:
+class SceneSolutions:
     """Solutions of one scene: the chosen lattice first, the reference second, then further models.
 
     Every solution has a unique `model` name, used in `differences` and `errors`. bar: the reference's error
@@ -96,7 +94,7 @@ class Compared:
         stable = all(one.comparable and one.status is not Status.UNSTABLE for one in pair)
         if not stable or not self.several or (solution in self.solutions[:2] and not self.other_branch):
             return stable
-        return not branches.far(*(one.displacement(self.scene.probe_points()) for one in pair))
+        return not branches.may_differ(*(one.displacement(self.scene.probe_points()) for one in pair))
 
     def error(self, solution: Solution) -> float | None:
         """Return the solution's error against the reference."""

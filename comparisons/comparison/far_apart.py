@@ -7,8 +7,6 @@ cases.) Differences up to 100 % may have other reasons on every grid, as springs
 sheet's or laws of strain; no branches are reported for them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from comparisons.models.expected_error import converges

@@ -4,8 +4,6 @@ The sheets are drawn at true scale unless their displacements are too small to s
 millimetres. Actuators and loads are drawn on both sheets (`comparisons.pictures.stage`).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -48,7 +46,7 @@ def compose(comparison: Comparison, style: FigureStyle = PLAIN) -> Figure:
     lattice, reference = comparison.solutions[:2]
     if not all(np.all(np.isfinite(s.mesh.point_data["displacement"])) for s in (lattice, reference)):
         raise NoPicture("a displacement is not a finite number")
-    if reason := offscreen.why_not():
+    if reason := offscreen.unavailable_reason():
         raise NoPicture(reason)
     plan = plan_mesh(scene).points[:, :2]
     truth = reference.displacement(plan)

@@ -4,8 +4,6 @@ The axes of chains are lines; a file's point data `actuator` is 0 on the lattice
 the order of their edges in the scene.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

@@ -13,8 +13,6 @@ than half the reference's distance from its previous extremum. Several motions a
 extrema that all have. Differences are over the reference's largest component.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -80,7 +78,7 @@ def measures(extrema: np.ndarray, count: int) -> Measures:
     return Measures(float(first[0, 1]), float(first[0, 0]), period, decay, float(first[-1, 0]))
 
 
-def measured_alike(*motions: History) -> tuple[Measures, ...]:
+def matching_measures(*motions: History) -> tuple[Measures, ...]:
     """Return the measures of motions, the reference's last, by an equal number of matching extrema."""
     reference = motions[-1]
     probe, component = leading(reference)
@@ -113,7 +111,7 @@ def difference(history: History, reference: History) -> dict[str, Any]:
     count = min(len(history.time), len(reference.time))
     u, truth = (np.array([u[:count] for u in h.probes.values()]) for h in (history, reference))
     scale, errors = float(np.abs(truth).max()) or np.nan, u - truth
-    own, true = measured_alike(history, reference)
+    own, true = matching_measures(history, reference)
 
     def relative(a: float | None, b: float | None) -> float | None:
         return None if a is None or not b else (a - b) / abs(b)

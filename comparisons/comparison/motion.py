@@ -4,8 +4,6 @@ The reference is simulated again on two coarser meshes, and with steps of about 
 error bar (`comparisons.sweep.limits.motion_bar`).
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Sequence
@@ -17,7 +15,7 @@ from comparisons.external import plugins
 from comparisons.models.grids import Elements as Count
 from comparisons.models.resolve import Resolved, resolve
 from comparisons.models.solve import simulate
-from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unlike
+from comparisons.models.spec import Elements, External, Lattice, Spec, parse, unique_name
 from comparisons.sweep.in_process import motion_row
 from comparisons.sweep.limits import motion_bar
 from sheetbench.answers.history import History
@@ -70,7 +68,7 @@ def compare_motion(
     first = run(lattice_model, "simulating the lattice", every, frames=frames)
     histories, interval = {lattice_model.spec.model: first}, first.settings["every"]
     for spec in further:
-        name = unlike(plugins.shown_name(spec.model), (*histories, finest.kind))
+        name = unique_name(plugins.shown_name(spec.model), (*histories, finest.kind))
         histories[name] = run(resolve(scene, spec, "motion"), f"simulating the {name}", interval)
     doing = f"simulating the {finest.kind}"
     truth = run(resolve(scene, finest), doing, interval, frames=frames)

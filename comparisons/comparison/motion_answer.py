@@ -1,7 +1,5 @@
 """The answer of `sheetbench compare --duration`: measures of motions, their differences and costs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
@@ -10,8 +8,8 @@ import numpy as np
 
 from comparisons.comparison import frames
 from comparisons.comparison.errors import one_of
-from comparisons.comparison.measures import Measures, difference, leading, measured_alike
-from comparisons.sweep.limits import in_all
+from comparisons.comparison.measures import Measures, difference, leading, matching_measures
+from comparisons.sweep.limits import total_bar
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.files import write_text
 from sheetbench.answers.history import COMPONENTS, History
@@ -73,12 +71,12 @@ class MotionComparison(Answer):
     @property
     def bar(self) -> float | None:
         """Error bar of the reference by mesh and steps, in the norm of `largest`, if known."""
-        return in_all(self.uncertainty)
+        return total_bar(self.uncertainty)
 
     @cached_property
     def measures(self) -> tuple[Measures, ...]:
         """Measures of every model, from an equal number of extrema."""
-        return measured_alike(*self.histories.values())
+        return matching_measures(*self.histories.values())
 
     @cached_property
     def differences(self) -> list[dict[str, Any]]:

@@ -1,7 +1,5 @@
 """The figure of motions: displacements of probes over time, and differences from the reference."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -8,8 +8,6 @@ equilibria. Inertia and the material's dampers then have no effect on the result
 take long steps.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
@@ -42,7 +40,7 @@ def require_settling(models: Iterable[Resolved[Any]]) -> None:
 
 def solved_from_motion(model: Resolved[Any], name: str) -> LocalSolve:
     """Return the row of a model whose statics start from the end of its damped motion."""
-    near, at_rest, fault = settled(model)
+    near, at_rest, fault = shape_after_motion(model)
     row = solve_in_process(model, name, near=near)
     points = model.scene.probe_points()
     shape_at_rest, answer = at_rest(points), row.answer
@@ -57,7 +55,7 @@ def solved_from_motion(model: Resolved[Any], name: str) -> LocalSolve:
     )
 
 
-def settled(model: Resolved[Any]) -> tuple[Any, Field, str]:
+def shape_after_motion(model: Resolved[Any]) -> tuple[Any, Field, str]:
     """Return the final shape of a model's damped motion, for `near` of its statics, the displacement of its
     mid-surface, and a clause on a motion that failed, else ""."""
     scene, is_lattice = model.scene, isinstance(model.spec, Lattice)

@@ -1,7 +1,5 @@
 """A simulated scene with its history and displacement fields: the answer of `sheetbench simulate`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 

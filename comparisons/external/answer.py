@@ -2,8 +2,6 @@
 and a search for the installed ones among the plug-ins.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext, suppress
@@ -75,7 +73,7 @@ def refusal(
     return ""
 
 
-class Reached(NamedTuple):
+class CodeAnswer(NamedTuple):
     """A static answer of a code: nodal displacement (n, 3) [m] at the last load factor that converged. note:
     the reason for an early end, "" if there was none; seconds: time of the solve alone; held: number of
     unknowns fixed by supports."""
@@ -89,7 +87,7 @@ class Reached(NamedTuple):
 
 
 class Code(ExternalCode, ABC):
-    """Base class of external codes: makes a `Solution` from the `Reached` of a subclass."""
+    """Base class of external codes: makes a `Solution` from the `CodeAnswer` of a subclass."""
 
     unknowns = 3  # per node
 
@@ -98,7 +96,7 @@ class Code(ExternalCode, ABC):
         """Return the reason why the code cannot solve a scene, "" if it can."""
 
     @abstractmethod
-    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Any) -> Reached:
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Any) -> CodeAnswer:
         """Solve a scene at rest that `refusal` accepts."""
 
     def mesh(self, scene: Scene, settings: Mapping[str, Any]) -> Any:
@@ -121,7 +119,7 @@ class Code(ExternalCode, ABC):
         start, mesh = perf_counter(), self.mesh(scene, settings)
         note = self.refusal(scene, settings)
         undeformed = np.zeros_like(mesh.positions)
-        reached = Reached(undeformed, note=note) if note else self.at_rest(scene, settings, mesh)
+        reached = CodeAnswer(undeformed, note=note) if note else self.at_rest(scene, settings, mesh)
         status = Status.CONVERGED if reached.load_factor == 1.0 and not reached.note else Status.DIVERGED
         if not np.isfinite(reached.displacement).all():
             status = Status.NON_FINITE

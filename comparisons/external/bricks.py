@@ -12,12 +12,10 @@ Nodes of an element are numbered as in Abaqus, CalculiX and VTK: corners below, 
 below, above, upright. SI units. The plan mesh is the only part shared with the solid of `fem_reference`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from skfem import MeshQuad
@@ -61,7 +59,7 @@ class Bricks:
     KIND: ClassVar = "hexahedron20"
 
     @classmethod
-    def of(cls, scene: Scene, elements: int, layers: int, grading: str) -> Bricks:
+    def of(cls, scene: Scene, elements: int, layers: int, grading: str) -> Self:
         """Extrude the shell's plan mesh. elements: number along the shorter side; grading "edges": finest at
         the edges, for meshes made of lines along x and y."""
         counts = divisions(scene.sheet, elements)

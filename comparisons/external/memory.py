@@ -1,7 +1,5 @@
 """Memory that this process may still take, by the machine, its control groups and its own limit."""
 
-from __future__ import annotations
-
 import os
 import re
 import resource

@@ -1,7 +1,5 @@
 """Output of another program that runs in a folder of its own, or the reason for its failure."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from pathlib import Path
 

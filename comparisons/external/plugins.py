@@ -14,8 +14,6 @@ model has `takes_any`. A ValueError raised by `solve` counts as bad input; a sol
 reports this in its Solution's status. docs/plugin.py is a short example.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 import sys
@@ -41,7 +39,7 @@ OURS = {  # external codes that come with this package
     "kratos": "comparisons.external.kratos.model:MODEL",
 }
 OBJECT = "MODEL"  # default name of the model in a file
-OWN = (
+HINT = (
     "A model of your own is named as FILE.py:CLASS, see docs/plugin.py, as exec:PROGRAM, see docs/strip.sh, "
     "or installed with an entry point"
 )
@@ -190,13 +188,13 @@ def _entry_points() -> dict[str, EntryPoint]:
 
 def _files_of(file: Path) -> dict[str, Path]:
     """Return a file and the modules and packages it imports from its own folder, by their paths there."""
-    folder, found, ahead = file.resolve().parent, set[Path](), [file.resolve()]
+    folder, files, ahead = file.resolve().parent, set[Path](), [file.resolve()]
     while ahead:
-        found.add(path := ahead.pop())
+        files.add(path := ahead.pop())
         for name in _imported(path):
             own = [folder / f"{name}.py", *(folder / name).rglob("*.py")]
-            ahead += [module for module in own if module not in found and module.is_file()]
-    return {path.relative_to(folder).as_posix(): path for path in found}
+            ahead += [module for module in own if module not in files and module.is_file()]
+    return {path.relative_to(folder).as_posix(): path for path in files}
 
 
 def _imported(file: Path) -> set[str]:

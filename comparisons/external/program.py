@@ -14,8 +14,6 @@ no answer within the time, too long an answer, or an unreadable one gives the st
 for this row alone. docs/strip.sh is a short example.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

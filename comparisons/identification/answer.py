@@ -1,7 +1,5 @@
 """The answer of `sheetbench identify`: values with intervals, residuals, and how the search ended."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any
 

@@ -8,8 +8,6 @@ where commas do not separate they may be decimal commas, as long as no number ha
 NaN, is a number that was not measured.
 """
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Iterator, Mapping

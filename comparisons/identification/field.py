@@ -13,8 +13,6 @@ and a cell of area A has the mean of about A/R_cc. The covariance of their noise
 Source: Aster, Borchers and Thurber, Parameter Estimation and Inverse Problems (2013), chapters 4 and 10.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -122,10 +120,10 @@ class FieldIdentification(Answer):
         )
 
     def complaints(self) -> list[str]:
-        found = [] if self.converged else [f"the search did not end within {self.evaluations} evaluations"]
+        faults = [] if self.converged else [f"the search did not end within {self.evaluations} evaluations"]
         if self.converged and self.chi > 1.1:
-            found.append(f"χ²/n = {self.chi:.2f}: every field of {self.name} leaves more than noise")
-        return found
+            faults.append(f"χ²/n = {self.chi:.2f}: every field of {self.name} leaves more than noise")
+        return faults
 
     def choices(self) -> dict[str, Any]:
         return self.settings
@@ -158,8 +156,8 @@ def identify_field(model: Resolved[Lattice], measured: Measured, name: str) -> F
         values = base.copy()
         values[present] *= np.exp(p)
         u = sheet.solve({array: values})
-        found, surface = sheet.surface(measured.points)
-        residuals = weights * found.ravel()[measured_components] - data
+        displacement, surface = sheet.surface(measured.points)
+        residuals = weights * displacement.ravel()[measured_components] - data
         observe = weights[:, None] * surface.matrix(len(u)).toarray()[measured_components]
         context().progress(f"{name} of {len(p)} cells: χ²/n = {residuals @ residuals / count:.3g}")
         rows = (sheet.pullback(row.reshape(-1, 3))[array] for row in observe)

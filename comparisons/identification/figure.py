@@ -2,8 +2,6 @@
 curves, measured and of every law, and the misfits.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

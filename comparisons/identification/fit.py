@@ -14,12 +14,10 @@ the unknowns by Halton's sequence, and the best fit is kept. A start that reache
 the first part of the record is dropped.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import log
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -33,7 +31,7 @@ from comparisons.identification.measurements import (
     typical_deviation,
     weights,
 )
-from comparisons.identification.model import Model, NotReached, Prediction
+from comparisons.identification.model import Model, NoAnswer, Prediction
 from comparisons.identification.unknowns import Unknown
 from comparisons.models.context import context
 from sheetbench.answers.table import number
@@ -48,7 +46,7 @@ EVALUATIONS = 60
 
 
 @dataclass(frozen=True)
-class Nearest:
+class Minimum:
     """End of a search: x (n,); weighted residuals (m,) there, in units of the largest measurement, and their
     slopes (m, n) by x; against_bounds: (n,), -1 or 1 for an unknown at its lower or upper bound; converged:
     whether the search ended at a minimum."""
@@ -106,13 +104,13 @@ class Fit:
         return typical_deviation(self.measured) / self.measured.scale
 
     def predict(self, x: np.ndarray) -> Prediction:
-        """Return the model's displacements at measured points. Raises NotReached without an equilibrium."""
+        """Return the model's displacements at measured points. Raises NoAnswer without an equilibrium."""
         measured, axes = self.measured, self.model.axes
         points = surface.plan_points(axes) if isinstance(measured, Surface) else measured.points
         return self.model.predict(self.unknowns, x, points, measured.time)
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return residuals and slopes at x. Raises NotReached without an equilibrium."""
+        """Return residuals and slopes at x. Raises NoAnswer without an equilibrium."""
         return self.residuals(self.predict(x))
 
     def per_point(self, residuals: np.ndarray) -> np.ndarray:
@@ -145,16 +143,16 @@ class Fit:
     def search(
         self,
         start: np.ndarray,
-        check: Callable[[Fit, Prediction], None] | None = None,
+        check: Callable[[Self, Prediction], None] | None = None,
         smallest: float = SMALLEST,
         evaluations: int = EVALUATIONS,
         pull: float = PULL,
-    ) -> Nearest:
+    ) -> Minimum:
         """Return the unknowns' x with which the model comes nearest to the measurements.
 
         start: x to begin at; check: called with this fit and the prediction at the start, that may
         raise; smallest: change of x, or of the sum of squares, that ends the search; evaluations: their
-        largest number; pull: towards the scene's own values. Raises NotReached if the model has no
+        largest number; pull: towards the scene's own values. Raises NoAnswer if the model has no
         equilibrium at the start."""
         cache: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
 
@@ -173,7 +171,7 @@ class Fit:
         def residuals(x: np.ndarray) -> np.ndarray:
             try:
                 return np.concatenate([evaluate(x)[0], pull * x])
-            except NotReached as error:
+            except NoAnswer as error:
                 context().progress(f"no answer there: {error}")
                 return np.concatenate([np.full(count, REFUSED), pull * x])
 
@@ -183,7 +181,7 @@ class Fit:
         limits = {"xtol": smallest, "ftol": smallest, "gtol": 1e-12, "max_nfev": evaluations}
         slopes = lambda x: np.vstack([evaluate(x)[1], pull * np.eye(len(x))])  # noqa: E731
         end = least_squares(residuals, start, slopes, bounds=(low, high), **limits)
-        return Nearest(end.x, *evaluate(end.x), end.active_mask, len(cache), end.status > 0)
+        return Minimum(end.x, *evaluate(end.x), end.active_mask, len(cache), end.status > 0)
 
 
 def _correlate(model: np.ndarray, measured: np.ndarray, scale: float) -> float:
@@ -202,31 +200,31 @@ PARTS = (0.125, 0.25, 0.5)  # of a record, before the whole
 FEWEST = 6  # measured numbers per unknown that a part must have
 ROUGH: dict[str, Any] = {"smallest": 1e-3, "evaluations": 12, "pull": 1e-2}  # of the search over a part
 ENOUGH = 1e-6  # of the search over the whole of a motion, whose slopes are differences
-ALIKE = 0.02  # of x: the same minimum
+SAME_MINIMUM = 0.02  # of x: the same minimum
 Refusal = Callable[[Fit, Prediction], None]
 
 
-def nearest(
-    fit: Fit, suffices: Callable[[Nearest], bool], check: Refusal = Fit.require_same_way
-) -> tuple[Nearest, int]:
+def best_search(
+    fit: Fit, suffices: Callable[[Minimum], bool], check: Refusal = Fit.require_same_way
+) -> tuple[Minimum, int]:
     """Return the best of the searches, and the number of starts made; suffices: whether a result needs no
     further start.
 
     check: called with the fit of the first start, or of the first part of a motion, and the
-    prediction there, that may raise. Raises NotReached if the model has no equilibrium with the scene's own
+    prediction there, that may raise. Raises NoAnswer if the model has no equilibrium with the scene's own
     values, of a motion with no start."""
     earlier: list[np.ndarray] = []
     low, high = np.array([u.bounds() for u in fit.unknowns]).T
     widths = np.minimum(SPREAD, 0.5 * (high - low))
     points = 2.0 * Halton(len(low), scramble=False).random(STARTS + 1)[1:] - 1.0
-    best, failure = None, NotReached()
+    best, failure = None, NoAnswer()
     for start, point in enumerate([np.zeros(len(low)), *points], 1):
         if start > 1:
             context().progress(f"not noise yet: start {start} of {STARTS + 1}")
         try:
             x = np.clip(widths * point, low, high)
             result = _search(fit, x, earlier, check if start == 1 else None)
-        except NotReached as error:
+        except NoAnswer as error:
             if start == 1 and not earlier:
                 raise
             failure = error if start == 1 else failure
@@ -240,7 +238,7 @@ def nearest(
     return best, STARTS + 1
 
 
-def _search(fit: Fit, start: np.ndarray, earlier: list[np.ndarray], check: Refusal | None) -> Nearest | None:
+def _search(fit: Fit, start: np.ndarray, earlier: list[np.ndarray], check: Refusal | None) -> Minimum | None:
     """Return the search from a start, over growing parts of a motion, or None if it reaches an earlier
     search's x. earlier: x after the first part of each search so far; this search adds its own."""
     parts = _split_record(fit)
@@ -249,7 +247,7 @@ def _search(fit: Fit, start: np.ndarray, earlier: list[np.ndarray], check: Refus
         result = part.search(start, check if index == 0 else None, **options)
         start = result.x
         if parts and index == 0:
-            if any(np.abs(start - x).max() < ALIKE for x in earlier):
+            if any(np.abs(start - x).max() < SAME_MINIMUM for x in earlier):
                 return None
             earlier.append(start)
     return result

@@ -29,8 +29,6 @@ does not depend on the machine: FITTED and CHECKED unknowns take a second or two
 search, the next step is taken to be half the last.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from math import prod
@@ -42,9 +40,9 @@ import numpy as np
 from comparisons.identification import residuals as remarks
 from comparisons.identification.answer import Identification
 from comparisons.identification.field import SUFFIX, FieldIdentification, identify_field
-from comparisons.identification.fit import Fit, Nearest, nearest
+from comparisons.identification.fit import Fit, Minimum, best_search
 from comparisons.identification.measurements import Displacements, Measured, Surface, read
-from comparisons.identification.model import NotReached, lattice_model, reference_model
+from comparisons.identification.model import NoAnswer, lattice_model, reference_model
 from comparisons.identification.residuals import Outlier, explained, outliers, runs
 from comparisons.identification.unknowns import DAMPING, VISCOUS, Estimate, Unknown
 from comparisons.identification.unknowns import unknown as unknown_of
@@ -68,8 +66,8 @@ FITTED, CHECKED = 20_000, 30_000  # unknowns of a lattice that is fitted, and of
 
 
 def refined(
-    scene: Scene, lattice: Lattice, fit: Fit, best: Nearest, free: bool
-) -> tuple[Fit, Nearest, np.ndarray, list[tuple[int, ...]]]:
+    scene: Scene, lattice: Lattice, fit: Fit, best: Minimum, free: bool
+) -> tuple[Fit, Minimum, np.ndarray, list[tuple[int, ...]]]:
     """Return the fit on the final grid, its best search, the change of x on cells half as large, nan if
     unknown, and all grids that were fitted, (nx, ny, layers) each. Cells are halved until they are small
     enough if the grid is free.
@@ -99,12 +97,12 @@ def refined(
             return fit, best, step, grids
         try:
             fit, best = finer_fit, finer_fit.search(best.x + step)
-        except NotReached:
+        except NoAnswer:
             return fit, best, step, grids
         grids.append(finer)
 
 
-def mesh_error(scene: Scene, reference: Elements, fit: Fit, best: Nearest) -> np.ndarray:
+def mesh_error(scene: Scene, reference: Elements, fit: Fit, best: Minimum) -> np.ndarray:
     """Return a bound of the error of x by a reference's mesh, from a step on elements twice as large. The
     error is taken to fall in first order, the slowest possible. Returns nan without an equilibrium on larger
     elements."""
@@ -123,13 +121,13 @@ def _solve_step(fit: Fit, x: np.ndarray) -> np.ndarray:
     """Return the Gauss–Newton step of x in determined directions; nan if the model has no equilibrium."""
     try:
         residuals, slopes = fit.at(x)
-    except NotReached:
+    except NoAnswer:
         return np.full(len(x), np.nan)
     step, *_ = np.linalg.lstsq(slopes, -residuals, rcond=Identifiability.threshold)
     return np.asarray(step)
 
 
-__all__ = ["NotReached", "identify"]
+__all__ = ["NoAnswer", "identify"]
 MODELS = ("lumped", *(name for name in REFERENCES if name != "plate"))  # whose large displacements hold
 
 
@@ -155,7 +153,7 @@ def identify(
     normal; uncertainty [m]: standard deviation of every measured number. refine: whether to estimate the
     error of the grid or mesh on other cells or elements (not for motions).
 
-    Raises BadInput for names, models and data that contradict each other, and NotReached where the model has
+    Raises BadInput for names, models and data that contradict each other, and NoAnswer where the model has
     no stable answer with the scene's own values."""
     scene = scene_of(scene)
     require_static(scene)
@@ -190,13 +188,13 @@ def _assemble_answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: b
     refine = refine and measured.time is None
     outlying: tuple[Outlier, ...] = ()
 
-    def suffices(result: Nearest) -> bool:
+    def suffices(result: Minimum) -> bool:
         nonlocal outlying
         outlying = outliers(fit, result)
         signs = runs(measured, fit.per_point(result.residuals))
         return bool(outlying) or explained(result.noise, signs, fit.deviation)
 
-    best, starts = nearest(fit, suffices)
+    best, starts = best_search(fit, suffices)
     step = model_error = np.full(len(unknowns), np.nan)
     grids: list[Any] = [fit.model.settings.get("grid")]
     free = isinstance(spec, Lattice) and spec.grid is None and not (scene.springs and scene.springs.grid)
@@ -213,13 +211,13 @@ def _assemble_answer(scene: Scene, fit: Fit, spec: Lattice | Elements, refine: b
     residuals = fit.per_point(best.residuals)
     signs = runs(measured, residuals)
     warnings = [
-        *remarks.on_start(fit, best, estimates),
+        *remarks.start_notes(fit, best, estimates),
         *(f"{row}. Is it a mistake? Empty its cells for the values without it" for row in outlying),
         *intervals.warnings,
-        *([] if outlying else remarks.on_residuals(fit, best, signs, starts)),
-        *remarks.on_ties(fit, best),
-        *remarks.on_bounds(fit, best),
-        *remarks.on_grid(estimates, spec.model, refine, fit.model.settings.get("grid") if free else None),
+        *([] if outlying else remarks.residual_notes(fit, best, signs, starts)),
+        *remarks.ties_notes(fit, best),
+        *remarks.bounds_notes(fit, best),
+        *remarks.grid_notes(estimates, spec.model, refine, fit.model.settings.get("grid") if free else None),
     ]
     return Identification(
         scene=scene,

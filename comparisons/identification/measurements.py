@@ -17,12 +17,10 @@ C3D: markers of a motion capture that have the names of probes, in the scene's a
 the first frame, which is the sheet at rest at time 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -75,13 +73,13 @@ class Displacements:
         """The largest measured component [m]."""
         return float(np.nanmax(np.abs(self.displacement)))
 
-    def without(self, rows: Sequence[int]) -> Displacements:
+    def without(self, rows: Sequence[int]) -> Self:
         """Return the measurements with nothing measured in some rows."""
         displacement = self.displacement.copy()
         displacement[list(rows)] = np.nan
         return replace(self, displacement=displacement)
 
-    def until(self, end: float) -> Displacements:
+    def until(self, end: float) -> Self:
         """Return the rows of a motion up to a time [s]."""
         assert self.time is not None
         rows = np.flatnonzero(self.time <= end)

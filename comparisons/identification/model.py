@@ -7,8 +7,6 @@ motion from rest                derivatives along the run of a lattice without o
                                 cubic in time between samples
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
@@ -36,7 +34,7 @@ MOTION_ERROR = 1e-7  # of a lattice's step, which changes with the unknowns: dif
 STEPS_PER_PERIOD = 100  # of a reference, fixed: frequencies within (2π/100)²/12, E within twice that, 0.07 %
 
 
-class NotReached(NoEquilibrium):
+class NoAnswer(NoEquilibrium):
     """No equilibrium at an x of the unknowns, or a run that ended early; the text is its status."""
 
 
@@ -55,7 +53,7 @@ Predictor = Callable[[Sequence[Unknown], np.ndarray, np.ndarray, np.ndarray | No
 class Model:
     """A model to fit. axes: the plan grid of its whole surface; predict: called with unknowns, their x (see
     `comparisons.identification.unknowns`), plan points (n, 2) [m] and the times (n,) [s] of a motion, None at
-    rest. It raises NotReached where the model has no stable equilibrium, or its run ended early."""
+    rest. It raises NoAnswer where the model has no stable equilibrium, or its run ended early."""
 
     settings: dict[str, Any]
     axes: tuple[np.ndarray, np.ndarray]
@@ -126,18 +124,18 @@ def _predict(
         sensitivity = solution.sensitivity()
         slopes = [sensitivity.moved_at(points, u.name) * u.slope(z) for u, z in zip(unknowns, x, strict=True)]
     except (BadInput, NoEquilibrium) as error:
-        raise NotReached(str(error)) from None
+        raise NoAnswer(str(error)) from None
     return Prediction(solution.displacement(points), slopes)
 
 
 def _solve_statics(model: Resolved[Any], varied: Scene) -> Solution:
-    """Return the model's equilibrium of a scene with other values. Raises NotReached without a stable one."""
+    """Return the model's equilibrium of a scene with other values. Raises NoAnswer without a stable one."""
     try:
         solution = solve(model.on(varied))
     except (BadInput, NoEquilibrium) as error:
-        raise NotReached(str(error)) from None
+        raise NoAnswer(str(error)) from None
     if solution.status is not Status.CONVERGED:
-        raise NotReached(f"{solution.label}: {solution.status}: {solution.status.advice}")
+        raise NoAnswer(f"{solution.label}: {solution.status}: {solution.status.advice}")
     return solution
 
 
@@ -159,7 +157,7 @@ def _sample_motion(
     probes = {f"m{i}": (float(x), float(y)) for i, (x, y) in enumerate(places)}
     run = simulate(varied.replace(probes=probes), float(time.max()))
     if run.status is not Status.CONVERGED:
-        raise NotReached(f"{run.label}: {run.status}: {run.message}")
+        raise NoAnswer(f"{run.label}: {run.status}: {run.message}")
     series = [run.probes, *run.extra.get("sensitivities", {}).values()]
     histories = np.array([[history[name] for name in probes] for history in series])
     samples = CubicSpline(run.time, histories, axis=2)(time)

@@ -8,8 +8,6 @@ The points of a PLY file, in ASCII or binary, are its element "vertex". Header l
 NAME`. The elements' rows follow in that order. Source: Turk, The PLY Polygon File Format (1994).
 """
 
-from __future__ import annotations
-
 import sys
 from dataclasses import dataclass
 from importlib.util import find_spec

@@ -11,8 +11,6 @@ and the fit made again from where it was; it is named if it is then FAR times th
 off. Up to MOST rows are tried in turn, one in FEWEST at most.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import log
@@ -23,9 +21,9 @@ from scipy.sparse.csgraph import minimum_spanning_tree
 from scipy.spatial import KDTree
 from scipy.special import bdtrc
 
-from comparisons.identification.fit import Fit, Nearest
+from comparisons.identification.fit import Fit, Minimum
 from comparisons.identification.measurements import MOVED, Displacements, Measured
-from comparisons.identification.model import NotReached
+from comparisons.identification.model import NoAnswer
 from comparisons.identification.unknowns import Estimate
 from sheetbench.answers.table import quantity
 from sheetbench.scenes.language.summary import few
@@ -115,7 +113,7 @@ class Outlier:
         )
 
 
-def outliers(fit: Fit, best: Nearest) -> tuple[Outlier, ...]:
+def outliers(fit: Fit, best: Minimum) -> tuple[Outlier, ...]:
     """Return the rows that do not fit; best: the search over all rows. A surface has none."""
     measured = fit.measured
     if not isinstance(measured, Displacements):
@@ -148,7 +146,7 @@ def _describe_outlier(measured: Displacements, residuals: np.ndarray, row: int) 
 CELLS = "cells half as large"
 
 
-def on_residuals(fit: Fit, best: Nearest, signs: Runs, starts: int) -> list[str]:
+def residual_notes(fit: Fit, best: Minimum, signs: Runs, starts: int) -> list[str]:
     """Return a warning of residuals that are more than noise, with a remedy."""
     names = ", ".join(u.name for u in fit.unknowns)
     effort = f"the best of {starts} starts" if starts > 1 else "the search"
@@ -166,7 +164,7 @@ def on_residuals(fit: Fit, best: Nearest, signs: Runs, starts: int) -> list[str]
     ]
 
 
-def on_start(fit: Fit, best: Nearest, estimates: Mapping[str, Estimate]) -> list[str]:
+def start_notes(fit: Fit, best: Minimum, estimates: Mapping[str, Estimate]) -> list[str]:
     """Return a warning of values more than FACTOR times the scene's, or less than a FACTOR-th of it, with the
     largest measurement beside the model's displacement with the scene's own values."""
     changed = [
@@ -187,13 +185,13 @@ def _compare_largest(fit: Fit) -> str:
     row, axis = np.unravel_index(np.nanargmax(np.abs(measured.displacement)), measured.displacement.shape)
     try:
         predicted = fit.predict(np.zeros(len(fit.unknowns))).displacement[row, axis]
-    except NotReached:
+    except NoAnswer:
         return ""
     values = (quantity(float(value), "m", ".3g") for value in (predicted, measured.displacement[row, axis]))
     return ", with which {} = {} where {} were measured".format(MOVED[int(axis)], *values)
 
 
-def on_ties(fit: Fit, best: Nearest) -> list[str]:
+def ties_notes(fit: Fit, best: Minimum) -> list[str]:
     """Return a warning of rounded numbers, with a scatter below the rounding error: half of the numbers are
     equal to another one, and the residuals are below the rounding error of the smallest difference."""
     measured = fit.measured
@@ -211,7 +209,7 @@ def on_ties(fit: Fit, best: Nearest) -> list[str]:
     ]
 
 
-def on_bounds(fit: Fit, best: Nearest) -> list[str]:
+def bounds_notes(fit: Fit, best: Minimum) -> list[str]:
     """Return warnings of unknowns that ended at a bound of the search."""
     return [
         f"{u.name} hit its search bound {quantity(u.value(x), u.unit)}: the data do not constrain it"
@@ -220,7 +218,7 @@ def on_bounds(fit: Fit, best: Nearest) -> list[str]:
     ]
 
 
-def on_grid(
+def grid_notes(
     estimates: Mapping[str, Estimate], model: str, estimated: bool, fitted_grid: Sequence[int] | None = None
 ) -> list[str]:
     """Return warnings of intervals that consist mostly of the error of the grid or mesh, or that lack it;

@@ -6,8 +6,6 @@ the normal there, so that sliding within the surface, or a point measured beyond
 nothing. The distance's derivative by a parameter is −n · ∂u/∂θ at the foot (envelope theorem). Metres.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +13,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.spatial import KDTree
 
 ITERATIONS = 30
-CLOSE = 1e-10  # of the sheet's longer side: a step of the foot that ends the search
+FOOT_TOLERANCE = 1e-10  # of the sheet's longer side: a step of the foot that ends the search
 
 
 def plan_grid(lengths: tuple[float, float], counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
@@ -67,7 +65,7 @@ def feet(axes: tuple[np.ndarray, np.ndarray], displacement: Field, cloud: np.nda
         updated = np.clip(plan + step, 0.0, lengths)
         change = np.abs(updated - plan).max()
         plan = updated
-        if change < CLOSE * lengths.max():
+        if change < FOOT_TOLERANCE * lengths.max():
             break
     tangents = _evaluate_tangents(plan, displacement)
     normals = np.cross(tangents[:, :, 0], tangents[:, :, 1])

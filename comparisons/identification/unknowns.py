@@ -5,8 +5,6 @@ logarithm, value = start·eˣ; Poisson's ratio and a clamp's tilt by x = value �
 x = (value − start) · longer side.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import exp, log, pi
 

@@ -1,7 +1,5 @@
 """The scenes that come with the package, and the language of scenes as a JSON Schema."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 

@@ -3,8 +3,6 @@
 Nothing is solved. Implausible values (`scenes.meaning.plausibility`) are listed as complaints.
 """
 
-from __future__ import annotations
-
 import shlex
 from dataclasses import dataclass
 from functools import cached_property
@@ -52,7 +50,7 @@ class Check(Answer):
         return unstopped_motions(self.scene)
 
     @property
-    def rubs(self) -> bool:
+    def has_friction(self) -> bool:
         """Whether an obstacle has friction, which statics refuse."""
         return any(obstacle.friction for obstacle in self.scene.obstacles)
 
@@ -74,7 +72,7 @@ class Check(Answer):
         return scene_file(self.called)
 
     def notes(self) -> list[str]:
-        called, moves_alone = shlex.quote(self.called), self.rubs or bool(self.free)
+        called, moves_alone = shlex.quote(self.called), self.has_friction or bool(self.free)
         until = max(kinks(self.scene), default=0.0) or (1.0 if moves_alone else 0.0)
         statics = [] if moves_alone else [f"Solve it with:\nsheetbench compare {called}"]
         motion = [f"Its motion:\nsheetbench compare {called} --duration {until:g}"] if until > 0.0 else []

@@ -1,7 +1,5 @@
 """The figure of a scene before a solve: plan, patches, supports, loads, payloads and probes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@
 options `large` and `progress` (`comparisons.cli.verb`); functions below do not pass them on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar

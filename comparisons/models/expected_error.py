@@ -28,8 +28,6 @@ are not in it. No estimate is given
 `sheetbench study promises` measures its accuracy on a hundred scenes (docs/theory.md, section 6).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import prod

@@ -9,8 +9,6 @@ from scenes with a smooth interior, which it would make coarser. Eight scenes dr
 are graded by GRADED: seven improve and one does not; by ½, two become much worse (docs/theory.md).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -3,8 +3,6 @@
 The numbers count masses of lattices or elements of references (`scenes.objects.grid`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from sheetbench.errors import BadInput

@@ -3,8 +3,6 @@
 The documentation's build and `sheetbench check --schema --out DIR` write it as scene.md.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from sheetbench.scenes.language.schema import branches, json_schema, kind, resolved

@@ -7,8 +7,6 @@ load        q per area along the normal bends the sheet within δ = (D/q)^⅓ of
             make no layer
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -17,8 +17,6 @@ and `consistent` elsewhere. FAR and INCOMPRESSIBLE were fitted to the transfer s
 drawn like the advisor's (docs/theory.md, section 3, with results on others).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from comparisons.models.scales import scales

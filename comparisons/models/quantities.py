@@ -1,7 +1,5 @@
 """A sheet and its material from options; refusals name the options."""
 
-from __future__ import annotations
-
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError

@@ -235,5 +235,5 @@ def _check_elements(spec: Elements) -> None:
 def _check_external(spec: External) -> None:
     names = [*OURS, *plugins.names()]
     if spec.name not in names and not plugins.is_outside(spec.name):
-        raise BadInput(f"model = '{spec.name}': unknown, choose one of {', '.join(names)}. {plugins.OWN}")
+        raise BadInput(f"model = '{spec.name}': unknown, choose one of {', '.join(names)}. {plugins.HINT}")
     plugins.settings_of(plugins.plugin(spec.name), spec.settings)

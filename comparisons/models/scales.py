@@ -11,8 +11,6 @@
 The moduli report of a calibration compares the lattice's stiffness with the sheet's.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

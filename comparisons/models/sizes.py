@@ -4,8 +4,6 @@ A process that runs out of memory in a solve ends without a message, so every ve
 models first.
 """
 
-from __future__ import annotations
-
 from bisect import bisect
 from collections.abc import Callable
 from math import isqrt, prod

@@ -5,8 +5,6 @@ compiling, spent once per process, counts neither as set-up nor as solving (`she
 calibration of a lattice counts as set-up.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from dataclasses import replace

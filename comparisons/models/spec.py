@@ -290,7 +290,7 @@ def parse(text: Spec | str) -> Spec:
     return spec_of(name, settings)
 
 
-def unlike(name: str, taken: Collection[str]) -> str:
+def unique_name(name: str, taken: Collection[str]) -> str:
     """Return a name that is not taken: the given one, or one with the first free number as suffix."""
     return next(n for n in (name, *(f"{name}-{i}" for i in range(2, len(taken) + 3))) if n not in taken)
 

@@ -4,8 +4,6 @@ Optional parts follow as comments: a block takes effect when the leading "# " of
 own comments remain comments. The descriptions are the schema's.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import Any

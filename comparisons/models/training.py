@@ -6,8 +6,6 @@ first four natural frequencies of each scene: higher modes have too few masses p
 spoil the fit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any

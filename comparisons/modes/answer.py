@@ -1,8 +1,6 @@
 """Natural frequencies of a lattice and of references, paired by mode shape: the answer of `sheetbench
 modes`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property

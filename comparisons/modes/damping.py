@@ -8,8 +8,6 @@ flat sheet at ω follows one equation,
 with α the damping_rate, τ the damping_time and the branches a_i, τ_i.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import inf, pi

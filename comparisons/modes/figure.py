@@ -2,8 +2,6 @@
 the references' modes of equal shape.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.ndimage import maximum_filter

@@ -14,8 +14,6 @@ and between two supported edges; a sheet held at adjacent edges has no axis, and
 count as bending.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass

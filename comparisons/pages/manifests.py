@@ -4,8 +4,6 @@ What a run was given and found, under "settings" and "scene", may be anything: i
 shows it.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Annotated, Any
@@ -74,12 +72,12 @@ def manifest(folder: Path) -> dict[str, Any]:
     try:
         if not path.is_file() or path.stat().st_size > LARGEST:
             raise BadInput("no file, or too large for a page")
-        found = json.loads(path.read_text(encoding="utf-8"))
-        SHAPE.validate_python(found, strict=True)
+        data = json.loads(path.read_text(encoding="utf-8"))
+        SHAPE.validate_python(data, strict=True)
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
         raise BadInput(f"{place}: {first['msg']}" if place else first["msg"]) from None
     except (OSError, ValueError, RecursionError) as error:
         raise BadInput(foreign(error)) from None
-    return dict(found)
+    return dict(data)

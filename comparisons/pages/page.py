@@ -5,8 +5,6 @@ of a scene or a file are text (Jinja escapes them), and data are read as JSON. S
 pictures as WebP.
 """
 
-from __future__ import annotations
-
 import hashlib
 from base64 import b64encode
 from collections import Counter

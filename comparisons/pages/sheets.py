@@ -4,8 +4,6 @@ Numbers go as little-endian bytes in base64, four a number: float32 keeps seven 
 micrometre on a metre, and takes half the room of decimals. Lengths are in metres, also of displacements.
 """
 
-from __future__ import annotations
-
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, partial
@@ -22,7 +20,7 @@ from sheetbench.scenes.objects.supports import place
 # corners of a brick's faces, outwards, as VTK numbers its nodes; those of quadratic ones come after them
 FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 QUADS, TRIANGLES = ("quad", "quad8", "quad9"), ("triangle", "triangle6")
-NEAR = 18  # points through which a plane is laid: 3 × 3 masses of two layers
+PLANE_POINTS = 18  # points through which a plane is laid: 3 × 3 masses of two layers
 LINES = 8  # cells a side that lines on a finer surface mark
 
 
@@ -98,12 +96,12 @@ def forces(points: np.ndarray, displacement: np.ndarray, scene: Scene) -> list[d
     """Return arrows of the scene's loads, as in the pictures; points (n, 3) [m]: of the mesh at rest;
     displacement (n, 3) [m]: at the points."""
     plan, arrows = load_arrows(scene, partial(_fit_normals, points, np.nan_to_num(displacement)))
-    found = []
+    result = []
     for at, arrow in zip(plan, max(scene.sheet.lengths) * arrows, strict=True):
         if arrow.any():
             nearest = int(np.argmin(np.linalg.norm(points[:, :2] - at, axis=1)))
-            found.append({"point": nearest, "at": [*at.tolist(), 0.0], "along": arrow.tolist()})
-    return found
+            result.append({"point": nearest, "at": [*at.tolist(), 0.0], "along": arrow.tolist()})
+    return result
 
 
 def _fit_normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray) -> np.ndarray:
@@ -111,7 +109,7 @@ def _fit_normals(points: np.ndarray, displacement: np.ndarray, plan: np.ndarray)
     points."""
     normals = np.zeros((len(plan), 3))
     for i, point in enumerate(plan):
-        nearest = np.argsort(np.linalg.norm(points[:, :2] - point, axis=1))[:NEAR]
+        nearest = np.argsort(np.linalg.norm(points[:, :2] - point, axis=1))[:PLANE_POINTS]
         flat = np.column_stack([points[nearest, :2] - point, np.ones(len(nearest))])
         tangents = np.linalg.lstsq(flat, (points + displacement)[nearest], rcond=None)[0]
         normal = np.cross(tangents[0], tangents[1])

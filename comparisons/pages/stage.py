@@ -4,8 +4,6 @@ A file has point data `displacement`; a comparison's plan grid has one a model, 
 modes has one a mode. A PVD file lists the moments of a motion.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from functools import partial

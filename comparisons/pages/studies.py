@@ -7,8 +7,6 @@ with their units and formats, the CSV file the values in SI units. Other CSV fil
 are listed among the files.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import shlex
@@ -57,8 +55,8 @@ class Study:
         documents = [name for name in self.files if name.endswith(".json") and name not in OURS]
         named = self.words.get("document")
         chosen = named if named in documents else next(iter(documents), None)
-        found = self.read(chosen, lambda path: json.loads(path.read_text("utf-8"))) if chosen else None
-        return found if isinstance(found, dict) else {}
+        document = self.read(chosen, lambda path: json.loads(path.read_text("utf-8"))) if chosen else None
+        return document if isinstance(document, dict) else {}
 
     @cached_property
     def scene(self) -> Scene | None:
@@ -99,14 +97,14 @@ class Study:
     @property
     def notes(self) -> list[str]:
         """The notes of the run on one line each but its complaints; a colon joins the next."""
-        found: list[str] = []
+        notes: list[str] = []
         for note in self.words.get("notes") or texts(self.document.get("notes")):
             line = " ".join(note.split())
-            if found and found[-1].endswith(":"):
-                found[-1] += f" {line}"
+            if notes and notes[-1].endswith(":"):
+                notes[-1] += f" {line}"
             else:
-                found.append(line)
-        return [note for note in found if note not in self.complaints]
+                notes.append(line)
+        return [note for note in notes if note not in self.complaints]
 
     @property
     def complaints(self) -> list[str]:
@@ -170,9 +168,9 @@ def read(root: Path) -> FolderContents:
     """Return every study in a folder and below it. Raises BadInput for a missing folder."""
     if not root.is_dir():
         raise BadInput(f"'{root}': there is no such folder")
-    found = FolderContents()
-    _collect(root, "", found)
-    return found
+    contents = FolderContents()
+    _collect(root, "", contents)
+    return contents
 
 
 def _collect(folder: Path, place: str, contents: FolderContents) -> None:

@@ -3,8 +3,6 @@
 Every VTU file has point data `displacement` (n, 3) [m] at points of the undeformed sheet.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

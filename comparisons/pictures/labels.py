@@ -1,7 +1,5 @@
 """Names of points in a figure, placed without overlaps and inside the panel."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import numpy as np

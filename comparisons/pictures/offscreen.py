@@ -4,8 +4,6 @@ VTK draws through the system's EGL or OSMesa library. Without either it ends the
 fault, so a small image is drawn in a child process first, once per process.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -40,7 +38,7 @@ raise SystemExit(0 if low < high else 1)
 """
 
 
-def why_not() -> str | None:
+def unavailable_reason() -> str | None:
     """Return the reason against off-screen drawing and the packages to install, None if it works."""
     if _working_window() is None:
         return f"off-screen drawing does not work on this system; on Debian install {PACKAGES}"

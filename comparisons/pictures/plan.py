@@ -4,8 +4,6 @@ The largest point load has the longest arrow. Arrows of an edge load are spread 
 pressure over the sheet and along its normal.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

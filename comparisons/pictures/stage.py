@@ -7,8 +7,6 @@ points as dark balls, obstacles pale. An arrow starts at the point of action of 
 (`comparisons.pictures.plan`). A turned arrow is an edge's moment.
 """
 
-from __future__ import annotations
-
 from functools import partial
 from itertools import pairwise
 from typing import Any

@@ -10,8 +10,6 @@ missing if one case is requested, as in the history of a simulation. A form may 
 with a row of empty numbers is open.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches

@@ -8,8 +8,6 @@ Detected mistakes are corrected before the next test, so several at once are rep
     swap    two probes whose exchange reduces a large error to less than a quarter
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
 
@@ -18,7 +16,7 @@ import numpy as np
 from comparisons.scoring.answers import Answer
 from sheetbench.choices import listed
 
-FACTOR, NEAR = 1000.0, 3.0
+FACTOR, RATIO = 1000.0, 3.0
 OPPOSITE = -0.9
 SIGNIFICANT = 0.01  # of the largest displacement: smaller components and errors are ignored
 REDUCTION = 0.25
@@ -56,7 +54,7 @@ def _frequency(answer: Answer, values: np.ndarray) -> Corrected:
 def _unit(answer: Answer, values: np.ndarray) -> Corrected:
     ratio = float(np.linalg.norm(values) / np.linalg.norm(answer.reference.values))
     for factor, size in ((FACTOR, "large, as in mm for m,"), (1.0 / FACTOR, "small")):
-        if 1.0 / NEAR < ratio / factor < NEAR:
+        if 1.0 / RATIO < ratio / factor < RATIO:
             return [f"displacements are 1000 times too {size}"], values / factor
     return [], values
 

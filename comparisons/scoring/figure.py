@@ -1,7 +1,5 @@
 """The figure of a score: errors by case over the reference's error bars."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.figure import Figure
 

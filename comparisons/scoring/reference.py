@@ -10,8 +10,6 @@ contact  as statics: sheets in contact with an obstacle
 `sheetbench study reference-set` computes the values of the scenes in the file.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from functools import cache

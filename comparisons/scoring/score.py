@@ -8,8 +8,6 @@
 An answer within the reference's error bar is not distinguishable from the reference.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -28,7 +26,7 @@ from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, PERCENT, Table, number
 from sheetbench.choices import REFERENCES
 
-OWN = "answers"
+ANSWERS = "answers"
 OWN_MODELS = ("lumped", *REFERENCES)
 SIZES = ("grid", "elements")
 ORIGINS = YOURS, OURS, OTHERS = "yours", "ours", "other program"
@@ -107,7 +105,7 @@ class Score(ShownAnswer):
         times = [answer.seconds for answer in self.answers if answer.seconds]
         seconds = _geometric(times) if len(times) == len(self.answers) else None
         others = other_models([answer.reference for answer in self.answers])
-        return sorted([Place(OWN, self.score, seconds, YOURS), *others], key=lambda place: place.score)
+        return sorted([Place(ANSWERS, self.score, seconds, YOURS), *others], key=lambda place: place.score)
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench score`."""
@@ -161,7 +159,7 @@ class Score(ShownAnswer):
         if self.unanswered:
             notes.append(f"not answered yet: {', '.join(self.unanswered)}")
         if len(self.leaderboard) > 1:
-            if any(place.seconds is not None for place in self.leaderboard if place.model != OWN):
+            if any(place.seconds is not None for place in self.leaderboard if place.model != ANSWERS):
                 machine = document()["made_with"]["machine"].get("processor", "another machine")
                 notes.append(f"times of the others are geometric means, measured on {machine}")
             notes.append(self.place)
@@ -171,8 +169,8 @@ class Score(ShownAnswer):
     def place(self) -> str:
         """Rank among other models by score, and the model of the nearest score, in words."""
         ranked = self.leaderboard
-        rank = [place.model for place in ranked].index(OWN) + 1
-        others = [place for place in ranked if place.model != OWN]
+        rank = [place.model for place in ranked].index(ANSWERS) + 1
+        others = [place for place in ranked if place.model != ANSWERS]
         nearest = min(others, key=lambda place: abs(np.log(max(place.score, 1e-12) / max(self.score, 1e-12))))
         return (
             f"you rank {rank} of {len(ranked)}; nearest neighbour {nearest.model}, "
@@ -226,7 +224,7 @@ def other_models(cases: Sequence[Reference]) -> list[Place]:
     rows: dict[str, dict[str, dict[str, Any]]] = {}
     names = {case.name for case in cases}
     stored = [row for row in document()["standing"] if row["case"] in names]
-    for row in stored or [row for case in cases for row in _judge_rows(case)]:
+    for row in stored or [row for case in cases for row in _model_rows(case)]:
         rows.setdefault(str(spec_of(row["model"], row["settings"])), {})[row["case"]] = row
     places = []
     for name, of_model in rows.items():
@@ -240,7 +238,7 @@ def other_models(cases: Sequence[Reference]) -> list[Place]:
     return places
 
 
-def _judge_rows(case: Reference) -> list[dict[str, Any]]:
+def _model_rows(case: Reference) -> list[dict[str, Any]]:
     """Return rows of other models that solved a case when the set was made; their times are not stored."""
     return [
         {**row, "case": case.name, "seconds": None, "settings": {k: row[k] for k in SIZES if k in row}}

@@ -1,7 +1,5 @@
 """The reference set as an answer: its cases, and as files scenes, values and a form for answers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any

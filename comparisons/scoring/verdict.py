@@ -7,8 +7,6 @@ if at least four fifths of the cases deviate to one side by more than the refere
 prescribed displacements do not depend on E).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from statistics import median
 

@@ -1,13 +1,11 @@
 """Ranges in which each model is accurate, largest stable steps, and all runs: the answer of `stability`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Annotated, Any
 
-from comparisons.stability.rows import LARGE, Row, broken, label_of, place, verdict
+from comparisons.stability.rows import LARGE, Row, fault_sentences, label_of, place, verdict
 from sheetbench.answers.answer import Answer
 from sheetbench.answers.report import Picture
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, Table, TableUnit, number
@@ -90,7 +88,7 @@ class Stability(Answer):
         return f"{verdicts.count('holds')} of {len(verdicts)} cells hold"
 
     def complaints(self) -> list[str]:
-        return broken(self.rows)
+        return fault_sentences(self.rows)
 
     def choices(self) -> dict[str, Any]:
         return {"studies": list(dict.fromkeys(row["study"] for row in self.rows))}

@@ -12,8 +12,6 @@ study against its finest mesh. Errors in motion are the largest difference from 
 with a fine step, over the largest displacement.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
@@ -53,7 +51,7 @@ CELLS = {"lumped": (2, 4, 8, 16, 32), "references": (2, 4, 8)}  # along the shor
 DAMPING = (0.0, 0.01, 0.1, 1.0, 10.0, 100.0)  # of the lowest mode's critical damping
 SHARES = (0.3, 0.9, 1.1)  # of the largest stable step
 DIVISIONS = (200, 50, 20, 8, 4, 2, 1)  # steps per period
-FINE, SAMPLES = 400, 40  # per period: steps of the midpoint rule, samples
+FINE_STEPS, SAMPLES = 400, 40  # per period: steps of the midpoint rule, samples
 PERIODS = 3.0  # duration of a run
 PARTS = ("patches", "layers")
 RUN_STEPS, RUN_PERIODS = 500, 2.0  # longest run with default steps: explicit steps, lowest periods
@@ -165,7 +163,7 @@ def _stepped(scene: Scene, lattice: Lattice, period: float) -> Iterator[Cell]:
             label=f"{name} {step:.3g} s",
         )
 
-    reference = at_step("midpoint", period / FINE)
+    reference = at_step("midpoint", period / FINE_STEPS)
     for name in INTEGRATORS:
         steps = [period / n for n in DIVISIONS]
         if lumped.INTEGRATORS[name].explicit and not scene.chains():  # explicit integrators refuse chains

@@ -1,7 +1,5 @@
 """The figure of a scene's stability: a panel per varied parameter, a strip of tiles per model."""
 
-from __future__ import annotations
-
 import matplotlib
 from matplotlib.figure import Figure
 

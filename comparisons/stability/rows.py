@@ -1,7 +1,5 @@
 """Rows of a stability map: a cell, the status of its run, its error."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 
@@ -31,7 +29,7 @@ def label_of(row: Row) -> str:
     return str(row["cell"].get("model") or row["cell"]["integrator"])
 
 
-def broken(rows: Iterable[Row]) -> list[str]:
+def fault_sentences(rows: Iterable[Row]) -> list[str]:
     """Return a sentence for every row that ended by one of FAULTS."""
     lost = (row for row in rows if row["status"] in FAULTS)
     return [f"{r['study']} {r['cell']}: {verdict(r)}: {r['message']}" for r in lost]

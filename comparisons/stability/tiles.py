@@ -1,7 +1,5 @@
 """Stability maps: cells as tiles, coloured by outcome and labelled with errors, and lines of theory."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 

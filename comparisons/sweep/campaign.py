@@ -8,8 +8,6 @@ Timed runs never share cores with other runs of the campaign: they run one at a 
 cluster, after the untimed runs, which run in parallel on all workers.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import traceback

@@ -1,7 +1,5 @@
 """Optional columns of the table of solves, computed from the answer on request."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

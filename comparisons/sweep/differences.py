@@ -7,8 +7,6 @@
 They are None if the reference does not move or a number is not finite.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -8,8 +8,6 @@ The manifest has the record of the latest run and, under "runs", the options and
 written before the first file, so that files of an interrupted run are listed too.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path

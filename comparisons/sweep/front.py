@@ -4,8 +4,6 @@ A row is on the Pareto front if no other row is as accurate in less time, or mor
 Errors below the reference's uncertainty cannot be distinguished and count as equal to it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import groupby
 from math import isfinite

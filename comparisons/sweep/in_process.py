@@ -1,7 +1,5 @@
 """Rows of the table of solves computed in this process, with their answers in memory."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from statistics import median
@@ -22,7 +20,7 @@ from sheetbench.answers.history import History
 from sheetbench.answers.solution import Solution
 from sheetbench.scenes import Scene
 
-QUICK = 0.2  # s: longer solves are not repeated
+REPEAT_BELOW = 0.2  # s: longer solves are not repeated
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +48,7 @@ def solve_in_process(model: Resolved[Any], name: str = "", repeats: int = 1, nea
     answer = solve(model, name, near)
     samples = [answer.solve_seconds]
     with running(progress=silent):
-        while len(samples) < repeats and answer.solve_seconds < QUICK:
+        while len(samples) < repeats and answer.solve_seconds < REPEAT_BELOW:
             samples.append(solve(model).solve_seconds)
     row = {"settings": answer.settings, "load_factor": answer.load_factor, "probes": model.scene.probes}
     row["cost"] = {"samples": samples, "load_average": load.average()}
@@ -64,6 +62,6 @@ def motion_row(scene: Scene, spec: Spec, history: History) -> Solved:
     return Solved(request, str(history.status), history.message, row if history.succeeded else {})
 
 
-def with_room(scene: Scene, lattice: Lattice) -> Solution | None:
+def solve_if_room(scene: Scene, lattice: Lattice) -> Solution | None:
     """Return the answer of a finer lattice, None if it needs too much memory."""
     return solve(resolve(scene, lattice), "lumped on a finer grid") if has_room(scene, lattice) else None

@@ -4,8 +4,6 @@ A compiled function checks its arguments in Python code before it starts. An int
 the interpreter raise a `SystemError`, "returned a result with an exception set", with the interrupt as cause.
 """
 
-from __future__ import annotations
-
 
 def is_behind(error: BaseException | None) -> bool:
     """Return whether an error is an interrupt or was caused by one."""

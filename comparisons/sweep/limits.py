@@ -36,7 +36,7 @@ def limit(rows: Iterable[Solved], size: Callable[[Solved], float] | None = None)
     size: step of a row, the cell size by default. The error of quadratic elements in the layer along edges is
     included at rest and ignored in motion; the order of motions, of steps and of other elements is at most 2.
     """
-    from fem_reference.edge_layer import missed_by
+    from fem_reference.edge_layer import unresolved
     from fem_reference.uncertainty import FITTED, estimate, largest_order
 
     measure = size or attrgetter("size")
@@ -48,7 +48,7 @@ def limit(rows: Iterable[Solved], size: Callable[[Solved], float] | None = None)
     if request.layered and size is None:
         largest = largest_order(request.scene)
         if request.duration is None:
-            layers = [missed_by(row.request.scene, row.row["settings"]) for row in usable]
+            layers = [unresolved(row.request.scene, row.row["settings"]) for row in usable]
         else:
             largest = min(largest, FITTED)  # a change of period makes signs of changes alternate
     return estimate([row.u for row in usable], sizes, layers, largest)
@@ -68,7 +68,7 @@ def motion_bar(meshes: Sequence[Solved], longer: Solved) -> dict[str, float | No
     return {name: bar.error if usable and bar is not None else None for name, bar in limits.items()}
 
 
-def in_all(bars: Mapping[str, float | None]) -> float | None:
+def total_bar(bars: Mapping[str, float | None]) -> float | None:
     """Return the sum of a bar's parts, None if one of them is unknown."""
     known = [bar for bar in bars.values() if bar is not None]
     return sum(known) if bars and len(known) == len(bars) else None

@@ -1,7 +1,5 @@
 """Conditions of measured times: the machine and its load, the worker of a cluster, the scatter of samples."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence

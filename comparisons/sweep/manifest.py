@@ -1,7 +1,5 @@
 """The record of a result: versions, machine, date and command."""
 
-from __future__ import annotations
-
 import os
 import platform
 import re

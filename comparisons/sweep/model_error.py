@@ -37,8 +37,6 @@ bounds hold against the solid with either clamp, and the shell with the three la
 `tests/comparisons/sweep/test_model_error.py`, h/a from 0.013 to 0.15.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ On Linux, the growth is the largest resident set minus its size before the solve
 elsewhere it is the growth of the largest resident set so far.
 """
 
-from __future__ import annotations
-
 import ctypes
 import gc
 import re

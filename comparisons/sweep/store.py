@@ -7,8 +7,6 @@ disk before the next run's result is read, so killing the process loses unfinish
 damaged, locked or not writable is refused and left unchanged.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import sqlite3

@@ -5,8 +5,6 @@ growth of the process (`comparisons.sweep.peak_memory`) during the second solve 
 are repeated until `SETTLED` seconds are spent, at most `MOST` times, for a meaningful median.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

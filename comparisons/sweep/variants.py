@@ -5,8 +5,6 @@ A key is written as in the file, its parts joined by dots and entries of a list 
 without a unit; `a..b:n` stands for n equally spaced values from a to b.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterable, Mapping, Sequence

@@ -4,8 +4,6 @@ Every variant is solved by every model, through a campaign's store; errors at th
 are against the reference on the variant (`comparisons.sweep.differences`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,7 +12,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from comparisons.models.resolve import resolve
-from comparisons.models.spec import Spec, unlike
+from comparisons.models.spec import Spec, unique_name
 from comparisons.sweep.campaign import CampaignKeywords
 from comparisons.sweep.differences import error
 from comparisons.sweep.solved import Request, Solved, sweep
@@ -148,7 +146,7 @@ def vary(
     """
     specs: dict[str, Spec] = {} if reference is None else {reference.model: reference}
     for spec in models:
-        specs[unlike(spec.model, specs)] = spec
+        specs[unique_name(spec.model, specs)] = spec
     requests = []
     for variant in variants(scene, values):
         require_static(variant.scene)

@@ -1,7 +1,5 @@
 """The figure of a sweep: the largest displacement component and the error over the first varied key."""
 
-from __future__ import annotations
-
 from itertools import cycle
 from typing import Any
 

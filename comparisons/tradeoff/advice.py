@@ -1,7 +1,5 @@
 """Advice on the model for a scene, with its reasons: the answer of `sheetbench tradeoff --tolerance`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite

@@ -12,8 +12,6 @@ shear" and "membrane stiffening" if they have a share of the energy; "large disp
 answer is inaccurate; and "actuators" if the scene has some. A static answer needs no dynamics.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from comparisons.comparison.comparison import load_static

@@ -1,7 +1,5 @@
 """Models of a scene with errors and costs, at rest and in motion: the answers of `sheetbench tradeoff`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Annotated, Any
@@ -19,7 +17,7 @@ from sheetbench.scenes.language.summary import few
 
 
 @dataclass(frozen=True, repr=False)
-class Priced(Answer):
+class TradeoffAnswer(Answer):
     """Base class of trade-offs: rows with an error and a cost each, and the reference of the errors.
     uncertainty: of the reference, a fraction, None if unknown; reasons: sentences on automatic choices."""
 
@@ -79,7 +77,7 @@ class OrderRow:
 
 
 @dataclass(frozen=True, repr=False)
-class Tradeoff(Priced):
+class Tradeoff(TradeoffAnswer):
     """The `TradeoffRow`s of a scene; uncertainty: needs a reference that converged on two meshes."""
 
     file_name = "tradeoff"
@@ -156,7 +154,7 @@ class Tradeoff(Priced):
 
 
 @dataclass(frozen=True, repr=False)
-class DynamicTradeoff(Priced):
+class DynamicTradeoff(TradeoffAnswer):
     """A `MotionRow` per model, size, integrator and step. lowest_period [s]: the lattice's about the flat
     sheet or its equilibrium, the shorter; uncertainty: of the reference due to its mesh and its steps;
     lattices: titles of the lattices; step_uncertainty: of the reference runs of step errors."""

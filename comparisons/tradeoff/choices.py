@@ -1,7 +1,5 @@
 """Models of a trade-off, from lists of grids, meshes and calibrations."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from comparisons.models.resolve import resolve_each

@@ -1,7 +1,5 @@
 """The figure of a trade-off: error against time with the front, and against cell size or step."""
 
-from __future__ import annotations
-
 from itertools import cycle
 from typing import Any
 
@@ -12,7 +10,7 @@ from matplotlib.text import Annotation
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from comparisons.pictures.labels import spread
-from comparisons.tradeoff.answer import DynamicTradeoff, Priced, Tradeoff
+from comparisons.tradeoff.answer import DynamicTradeoff, Tradeoff, TradeoffAnswer
 from comparisons.tradeoff.row import MotionRow, TradeoffRow
 from sheetbench.answers.figure_style import PLAIN, FigureStyle
 from sheetbench.answers.style import GREY, SERIES, plain
@@ -49,7 +47,7 @@ def compose(tradeoff: Tradeoff | DynamicTradeoff, style: FigureStyle = PLAIN) ->
         if slope is not None:
             label += f"  (order {slope:.1f})" if slope >= STALLED else "  (does not converge)"
         _against_time(left, rows, [i in on_front for i in positive], line, label, tradeoff.COST[1])
-        points = [(1e3 * h, 100 * e) for h, e in (row.sized for row in rows) if h and e]
+        points = [(1e3 * h, 100 * e) for h, e in (row.plot_point for row in rows) if h and e]
         if points:
             right.plot(*zip(*points, strict=True), **line)
     _front(left, tradeoff)
@@ -100,7 +98,7 @@ def _against_time(
             )  # fmt: skip
 
 
-def _front(axis: Axes, tradeoff: Priced) -> None:
+def _front(axis: Axes, tradeoff: TradeoffAnswer) -> None:
     """Draw the front as a staircase: the least error within each time."""
     rows, (_, scale) = [tradeoff.rows[i] for i in tradeoff.front], tradeoff.COST
     if not rows:
@@ -113,7 +111,7 @@ def _front(axis: Axes, tradeoff: Priced) -> None:
     axis.step(times, errors, where="post", zorder=0, label="front: the best in that time", **band)
 
 
-def floor(axis: Axes, tradeoff: Priced, note: str) -> None:
+def floor(axis: Axes, tradeoff: TradeoffAnswer, note: str) -> None:
     """Draw a band for errors below the reference's uncertainty."""
     if not tradeoff.uncertainty:
         return

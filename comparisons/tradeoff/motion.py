@@ -14,8 +14,6 @@ integrators take fractions of their stability limit instead. Plate, shell and so
 error.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Unpack
@@ -27,7 +25,7 @@ from comparisons.comparison.motion import require_motion
 from comparisons.models.resolve import resolve
 from comparisons.models.spec import Elements, Lattice, Spec
 from comparisons.sweep.campaign import CampaignKeywords
-from comparisons.sweep.limits import in_all, motion_bar
+from comparisons.sweep.limits import motion_bar, total_bar
 from comparisons.sweep.solved import Request, Solved, sweep
 from comparisons.sweep.store import Store
 from comparisons.tradeoff.answer import DynamicTradeoff
@@ -113,7 +111,7 @@ def dynamic_tradeoff(
             for row in rows
         ),
         MotionRow.of(by_mesh[0], by_mesh[0]),
-        in_all(motion_bar(by_mesh, longer_steps)),
+        total_bar(motion_bar(by_mesh, longer_steps)),
         tuple(dict.fromkeys(f"{name.removesuffix('_reason')}: {text}" for name, text in reasons)),
         tuple(f"lumped {model.springs.title}" for model in models),
         max(map(_largest_difference, halves, truths), default=0.0),

@@ -1,14 +1,12 @@
 """Rows of a trade-off, at rest and in motion: a model, its status, cost and errors."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
-from comparisons.comparison.measures import difference, largest, measured_alike
+from comparisons.comparison.measures import difference, largest, matching_measures
 from comparisons.external.plugins import shown_name
 from comparisons.sweep.solved import Solved
 from sheetbench.answers.table import MILLISECONDS, NUMBER, PERCENT, Column, TableUnit
@@ -16,7 +14,7 @@ from sheetbench.scenes.language.summary import milliseconds
 
 MEMORY = TableUnit("B", "MB", 1e-6)
 FRONT = Column("front", words=("yes", ""))
-OWN = ("label", "status", "message", "cell_size", "started", "finished", "error", "field_error")
+FIELDS = ("label", "status", "message", "cell_size", "started", "finished", "error", "field_error")
 MEASURED = ("unknowns", "iterations", "setup_seconds", "peak_memory_bytes")
 CONDITIONS = ("load_average", "machine", "worker", "versions")  # in the JSON if known
 _OF_AN_ANSWER = ("load_factor", "model_error", "probes", "traceback", *CONDITIONS)
@@ -69,7 +67,7 @@ class TradeoffRow(Solved):
         return self.request.spec.model
 
     @property
-    def sized(self) -> tuple[float | None, float | None]:
+    def plot_point(self) -> tuple[float | None, float | None]:
         """Abscissa and ordinate of a convergence plot: size of a cell [m] and error."""
         return self.cell_size, self.error
 
@@ -99,7 +97,7 @@ class TradeoffRow(Solved):
     def as_dict(self) -> dict[str, Any]:
         """Return the row as JSON data."""
         spec, known = self.request.spec, self.known
-        out = {name: getattr(self, name) for name in OWN} | {name: known.get(name) for name in MEASURED}
+        out = {name: getattr(self, name) for name in FIELDS} | {name: known.get(name) for name in MEASURED}
         out |= {"model": shown_name(spec.model), "settings": spec.settings, "series": spec.series}
         out |= {name: known[name] for name in _OF_AN_ANSWER if known.get(name) is not None}
         return out | {"solve_seconds": {"median": self.seconds, "samples": self.samples}}
@@ -130,12 +128,12 @@ class MotionRow(TradeoffRow):
     damping_error: float | None = None
 
     @classmethod
-    def of(cls, solved: Solved, truth: Solved, fine: Solved | None = None) -> MotionRow:
+    def of(cls, solved: Solved, truth: Solved, fine: Solved | None = None) -> Self:
         """Return the row of a run; truth: of the reference; fine: of the lattice with fine steps."""
         history, reference = solved.history, truth.history
         if history is None or reference is None:
             return cls(**vars(solved))
-        errors, (run, true) = difference(history, reference), measured_alike(history, reference)
+        errors, (run, true) = difference(history, reference), matching_measures(history, reference)
         fine_history = None if fine is None else fine.history
         damping = None if run.damping is None or true.damping is None else run.damping - true.damping
         return cls(
@@ -175,7 +173,7 @@ class MotionRow(TradeoffRow):
         return f"{self.run} with steps of {milliseconds(self.step)}" if self.step else self.run
 
     @property
-    def sized(self) -> tuple[float | None, float | None]:
+    def plot_point(self) -> tuple[float | None, float | None]:
         """Abscissa and ordinate of a convergence plot: step [s] and step error."""
         return self.step, self.step_error
 

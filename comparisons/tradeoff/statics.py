@@ -9,8 +9,6 @@ Orders: the slope of log error over log h, h the size of a cell, and of log time
 rows of a family whose errors are well above the uncertainty.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Unpack
 

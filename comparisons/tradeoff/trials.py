@@ -5,8 +5,6 @@ only while a decision depends on it. Times are measured on warm code; the time o
 follows t = c N^p through the two solved models nearest in unknowns.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 from time import perf_counter

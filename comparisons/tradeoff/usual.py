@@ -1,7 +1,5 @@
 """Default models of a trade-off, for the command and the function; lists as text."""
 
-from __future__ import annotations
-
 from sheetbench.choices import CALIBRATION
 
 GRIDS = "3,5,9,17,33"

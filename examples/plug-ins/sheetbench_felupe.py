@@ -8,8 +8,6 @@ without which thin sheets lock.
 Everything of a scene but chains and edge moments. Needs FElupe.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import metadata
@@ -20,7 +18,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, lil_matrix
 from scipy.sparse.linalg import splu
 
-from comparisons.external.answer import BRICK_MOMENTS, Code, Reached, refusal
+from comparisons.external.answer import BRICK_MOMENTS, Code, CodeAnswer, refusal
 from comparisons.external.bricks import Bricks, Held, forces, held
 from sheetbench.scenes import Material, Pressure, Scene
 
@@ -55,12 +53,12 @@ class FElupe(Code):
     def refusal(self, scene: Scene, settings: Mapping[str, Any]) -> str:
         return refusal(scene, CHAINS, BRICK_MOMENTS, LAWS)
 
-    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> CodeAnswer:
         equilibrium, supports = _equilibrium(scene, mesh), held(scene, mesh)
         began = perf_counter()
         path = _traced(equilibrium, supports)
         seconds = perf_counter() - began
-        return Reached(path.displacement, path.load_factor, path.iterations, seconds=seconds)
+        return CodeAnswer(path.displacement, path.load_factor, path.iterations, seconds=seconds)
 
 
 def _law(material: Material) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:

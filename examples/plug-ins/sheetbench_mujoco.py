@@ -11,8 +11,6 @@ Upright clamps, hinged edges, gravity and point loads; anything else is refused.
 Source: MuJoCo's documentation, "Deformable objects" and the XML reference of `flexcomp`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from time import perf_counter

@@ -31,7 +31,7 @@ ERROR = 1e-5  # of a step, relative to the largest displacement so far
 SOLVED = 1e-3  # last correction, relative to the error allowed
 ROUNDED = 1e-13  # correction, relative to the displacement
 CORRECTIONS = 12
-QUICK = 0.1  # ratio of successive corrections up to which factors are kept
+KEEP_FACTORS_BELOW = 0.1  # ratio of successive corrections up to which factors are kept
 FRACTION = 1.0 / 64.0  # smallest part of a fixed step that fails
 LEAST = 1e-8  # smallest displacement that counts, relative to the sheet's longer side
 SMALLEST = 1e-9  # step, relative to the run
@@ -49,7 +49,7 @@ class Sampled(NamedTuple):
 
 
 class ConstrainedAlpha(MotionMethod[SheetMotion]):
-    """Steps of a reference. step [s]: fixed, or None for one by the error; first: the first one tried.
+    """Generalised-α steps. step [s]: fixed, or None for one by the error; first: the first one tried.
     adapts, span, kinks: of `sheetbench.numerics.time.method`. Steps end at samples of a sheet with chains:
     their firm stiffnesses make much energy of the small strains that a cubic within a step leaves."""
 
@@ -79,7 +79,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         q = start(self._model)
         return self.begin(0.0, q, np.zeros_like(q))
 
-    def _reach(self, change: np.ndarray) -> float:
+    def _largest_component(self, change: np.ndarray) -> float:
         """Return the largest component of the nodes' displacements in a change (N,) of the coordinates."""
         return float(np.abs(self._model.displacement(change)).max())
 
@@ -107,11 +107,11 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
             return Sampled(times, [end], np.array([last.dissipated]), np.array([last.work]))
         start, spent, work = self._step
         motions = [between(start, end, time) for time in times.tolist()]
-        motions = [replace(m, memory=self._remembered(m.q, self._branches(start, m.time))) for m in motions]
+        motions = [replace(m, memory=self._memory_after(m.q, self._branches(start, m.time))) for m in motions]
         share = np.array([(m.time - start.time) / (end.time - start.time) for m in motions])
         return Sampled(times, motions, share * spent[0], work + share * spent[1])
 
-    def _remembered(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
+    def _memory_after(self, q: np.ndarray, branches: BranchStep | None) -> np.ndarray:
         """Return the memory (1 + b, 2, m) at the end of a step of the branches: stresses, strains and the
         branches' parts. Without a step it is the memory at rest; without branches it is empty."""
         material_branches, shape = self._model.branches, self._model.shape(q, 1.0)
@@ -138,11 +138,11 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         before, after, lost = (float(u @ (model.mass @ u)) for u in (v, rate, a))  # twice kinetic energies
         if self.adapts:
             allowed = 2.0 * self._error * self._largest
-            steps = [self._first, np.sqrt(allowed / max(self._reach(a), 1e-30))]
+            steps = [self._first, np.sqrt(allowed / max(self._largest_component(a), 1e-30))]
             if self._euler:  # its first step dissipates ½ h² `lost`
                 steps.append(np.sqrt(TAKEN * max(before, after) / max(lost, 1e-30)))
             self.control.step = min(steps)
-        memory = self._remembered(q, branches)
+        memory = self._memory_after(q, branches)
         motion = SheetMotion(time, q, rate, a, a, model.mass @ a + forces, memory)
         return Advance(motion, 0.0, 0.5 * (after - before))
 
@@ -159,8 +159,8 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
             nonlocal largest
             old = shifted(motion.a, motion.algorithm, h, self._before)
             after = self._advanced(motion, h, step_of(rule, h, motion.q, motion.v, motion.a, old))
-            largest = max(self._largest, self._reach(after.q))
-            jump = self._reach(after.a if self._euler else after.algorithm - old)
+            largest = max(self._largest, self._largest_component(after.q))
+            jump = self._largest_component(after.a if self._euler else after.algorithm - old)
             error = h * h * rule.error * jump / (self._error * largest)
             return (after, error), error, allowed
 
@@ -174,7 +174,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
 
     def _advanced(self, motion: SheetMotion, h: float, step: AlphaStep) -> SheetMotion:
         """Return the end of a step of h [s] by Newton's iteration, with factors kept while corrections shrink
-        to `QUICK`. Raises StepFailed, SingularMatrixError."""
+        to `KEEP_FACTORS_BELOW`. Raises StepFailed, SingularMatrixError."""
         model, time = self._model, motion.time + h
         branches = self._branches(motion, time)
 
@@ -184,7 +184,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
             return SheetMotion(time, q, v, a, step.algorithm(a), exerted)
 
         end = at(model.on_supports(step.guess, time))
-        largest = max(self._largest, self._reach(end.q))
+        largest = max(self._largest, self._largest_component(end.q))
         tolerance = max(SOLVED * self._error * min(self._local, 1.0), ROUNDED) * largest
         if self._taken != h:
             self._factor = None
@@ -196,14 +196,14 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
                 matrix = model.tangent(shape, end.exerted, step.by_a, step.by_v)
                 self._factor, self._taken = self._solver.factor(matrix), h
             move = basis @ self._factor.solve_unrefined(-(basis.T @ end.exerted))
-            length = self._reach(move)
+            length = self._largest_component(move)
             if not np.isfinite(length):
                 raise StepFailed("a number overflowed")
             end = at(model.moved(end.q, move))
             ratio = length / last if last else 1.0
             if length * min(ratio, 1.0) <= tolerance:
-                return replace(end, memory=self._remembered(end.q, branches)) if branches else end
-            if last and ratio > QUICK:
+                return replace(end, memory=self._memory_after(end.q, branches)) if branches else end
+            if last and ratio > KEEP_FACTORS_BELOW:
                 self._factor = None
             last = length
         raise StepFailed("the corrections do not shrink")

@@ -19,7 +19,7 @@ from sheetbench.answers.history import History
 from sheetbench.choices import REFERENCE
 from sheetbench.clock import now
 from sheetbench.errors import BadInput
-from sheetbench.runs.record import Recipe, parted, record
+from sheetbench.runs.record import Recipe, record, split_options
 from sheetbench.runs.schedule import require_error, schedule_of
 from sheetbench.scenes import AnyScene, EdgeMotion, Scene, scene_of
 from sheetbench.scenes.meaning.distances import require_no_obstacles
@@ -81,7 +81,7 @@ def simulate(
     >>> history.status, float(history.time[-1])
     (<Status.CONVERGED: 'converged'>, 0.01)
     """
-    recording, options = parted(options)
+    recording, options = split_options(options)
     moving_scene = scene_of(scene)
     require_moving(moving_scene, model)
     for name, value in {"duration": duration, "step": step, "every": every}.items():

@@ -27,7 +27,7 @@ from skfem import MeshQuad
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
-from fem_reference.plate.validity import buckling_load, strained
+from fem_reference.plate.validity import buckling_load, nonlinearity
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.biquadratic import AT_GAUSS
@@ -109,7 +109,7 @@ class DiscretePlate(DiscreteShell):
         return Fault(Status.UNSTABLE, f"its in-plane forces buckle it at {100.0 * share:.3g} % of the load")
 
     def stretch(self, shape: SheetShape) -> float:
-        return strained(self.element, shape.change, shape.strain)
+        return nonlinearity(self.element, shape.change, shape.strain)
 
     def beyond(self, stretch: float) -> str:
         if not stretch > 1.0:

@@ -17,7 +17,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from fem_reference.shell.element import FORMS, Element, cartesian, upright, weighed
+from fem_reference.shell.element import FORMS, Element, to_cartesian, vectors_at_rest, weighed
 from fem_reference.shell.element import SHEAR as SAMPLED_SHEAR
 from fem_reference.surface.biquadratic import AT_GAUSS, areas, jacobians
 from fem_reference.surface.materials import Section
@@ -38,7 +38,7 @@ class PlateElements(Element):
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
         """Return elements with nodes at plan positions (m, 9, 2) [m]."""
-        slope, reference = AT_GAUSS[1], upright(nodes)
+        slope, reference = AT_GAUSS[1], vectors_at_rest(nodes)
         inverse = np.linalg.inv(jacobians(nodes, slope))  # ∂ξ_a/∂x_b, by a and b
         gradient = np.einsum("agi,egab->egbi", slope, inverse)
         m, q = gradient.shape[:2]
@@ -48,7 +48,7 @@ class PlateElements(Element):
             xx[..., 0] = xy[..., 1] = gradient[:, :, 0]
             yy[..., 1] = xy[..., 0] = gradient[:, :, 1]
         sampled = np.einsum("kij,ejc->ekic", FORMS[SAMPLED_SHEAR], reference)
-        forms[:, :, SHEAR] = np.einsum("egak,ekic->egaic", cartesian(nodes)[2], sampled)
+        forms[:, :, SHEAR] = np.einsum("egak,ekic->egaic", to_cartesian(nodes)[2], sampled)
         stiffness, weights = np.zeros((m, q, 8, 8)), areas(nodes)
         blocks = (MEMBRANE, MEMBRANE), (BENDING, BENDING), (SHEAR, SHEAR), (MEMBRANE, BENDING)
         for (row, column), moduli in zip(blocks, section, strict=True):

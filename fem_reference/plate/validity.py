@@ -24,7 +24,7 @@ from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
 SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
 
 
-def strained(elements: PlateElements, change: np.ndarray, strain: np.ndarray) -> float:
+def nonlinearity(elements: PlateElements, change: np.ndarray, strain: np.ndarray) -> float:
     """Return the largest slope, turn, or double the mean strain along x or y of an element; linear theory
     ends at 1 of each. change: of the vectors (m, 18, 3); strain: (9 m, 8)."""
     by_xy = elements.gradient @ change[:, None, :9]  # of u, v and w by x and y, (m, 9, 2, 3)

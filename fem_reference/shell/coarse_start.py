@@ -31,7 +31,7 @@ from sheetbench.scenes import Scene
 Shape = Callable[[np.ndarray], np.ndarray]
 
 COARSER = 4  # times as many elements along a side
-FINE = 8  # elements along the shorter side, from which on a coarse mesh saves more than it takes
+COARSE_START_FROM = 8  # elements along the shorter side, from which on a coarse mesh saves more than it takes
 LIMITS = Limits(factorisations=10)  # of a coarse path that leads straight; other paths are abandoned
 
 NODES = 2.0 * ElementQuad2.doflocs.T - 1.0
@@ -43,12 +43,12 @@ _ENDS = np.cumsum([len(points.T) for points in _TO_NODES.values()])
 def coarse(counts: tuple[int, int], scene: Scene) -> tuple[int, int] | None:
     """Return the elements along x and y of the coarse mesh to begin with, if there is one. Rods have unknowns
     of their own, and a sheet that is not flat at rest may buckle otherwise on a coarse mesh."""
-    if min(counts) < FINE or scene.actuators or scene.natural_by or scene.obstacles:
+    if min(counts) < COARSE_START_FROM or scene.actuators or scene.natural_by or scene.obstacles:
         return None
     return counts[0] // COARSER, counts[1] // COARSER
 
 
-def plain(path: Path[StaticState, Forces]) -> bool:
+def is_direct(path: Path[StaticState, Forces]) -> bool:
     """Return whether a path has led straight to an equilibrium, without snaps or notes."""
     straight = all(entry.load_factor == 1.0 for entry in path.history)
     return path.status is Status.CONVERGED and straight and not path.snaps and not path.notes
@@ -68,7 +68,7 @@ def start(coarser: DiscreteShell, q: np.ndarray, sheet: DiscreteShell) -> Start[
     return _start(sheet, displacement, turn, stretched)
 
 
-def shaped(shape: Shape, sheet: DiscreteShell) -> Start[StaticState]:
+def in_shape(shape: Shape, sheet: DiscreteShell) -> Start[StaticState]:
     """Return the state, without membrane stress, of a shell in a given shape. shape: a function from points
     (k, 3) [m] of the flat sheet, on its normals, to their displacement (k, 3) [m]."""
     nodes = sheet.plan.nodes

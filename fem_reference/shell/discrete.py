@@ -38,9 +38,9 @@ from fem_reference.surface import rod
 from fem_reference.surface import supports as surface_supports
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.biquadratic import AT_GAUSS
-from fem_reference.surface.carried import add_carried
 from fem_reference.surface.materials import Section, constants_of, section_at, stretched
 from fem_reference.surface.mesh import plan_of, quarters
+from fem_reference.surface.payloads import add_payloads
 from fem_reference.surface.rod import block_diagonal
 from fem_reference.surface.rubber import require_law
 from fem_reference.surface.supports import Supports
@@ -150,7 +150,7 @@ class DiscreteShell(DiscreteElements):
         parts = np.array([[self.element.areas * part for part in row] for row in kinds])
         masses = np.einsum("preg,gi,gj->preij", parts, value, value)
         out = np.einsum("preij,cd->epicrjd", masses, np.eye(3)).reshape(-1, 18, 3, 18, 3)
-        add_carried(self.scene, self.plan, out)
+        add_payloads(self.scene, self.plan, out)
         return out
 
     @cached_property
@@ -212,7 +212,7 @@ class DiscreteShell(DiscreteElements):
         return np.append(np.zeros((self.nodes, 3)), turns)
 
     def of_supports(self, exerted: np.ndarray) -> np.ndarray:
-        """Return M ü + g at held coordinates, without the forces that keep free directors unit vectors."""
+        """Return the supports' forces M ü + g, without forces that keep free directors unit vectors."""
         return np.where(self._held.ravel(), exerted, 0.0)
 
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:

@@ -96,7 +96,7 @@ OF_POSITIONS = FORMS[:, :9].reshape(STRAINS, -1)  # rows of directors are their 
 
 @dataclass(frozen=True)
 class Element:
-    """All elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]. parts:
+    """Shell elements: reference Q₀ (m, 18, 3), stiffness D (m, 54, 54), areas w |det J| (m, 9) [m²]. parts:
     slices of the strains by kind."""
 
     reference: np.ndarray
@@ -107,7 +107,7 @@ class Element:
     @classmethod
     def build(cls, nodes: np.ndarray, section: Section) -> Self:
         """Return elements with nodes at (m, 9, 2) [m]. Raises BadInput if one is inverted."""
-        return cls(*built(nodes, *section))
+        return cls(*arrays(nodes, *section))
 
     @cached_property
     def coupled(self) -> bool:
@@ -161,7 +161,7 @@ class Element:
 
     def at_points(self, strain: np.ndarray) -> tuple[np.ndarray, ...]:
         """Return E, κ (m, 9, 3) and γ (m, 9, 2) at the Gauss points, from sampled strains (m, 54)."""
-        forms = cartesian(self.reference[:, :9, :2])
+        forms = to_cartesian(self.reference[:, :9, :2])
         parts = zip(forms, self.parts.values(), strict=False)
         return tuple(np.einsum("egak,ek->ega", form, strain[:, part]) for form, part in parts)
 
@@ -188,11 +188,11 @@ def weighed(moduli: np.ndarray, strain: np.ndarray) -> np.ndarray:
 
 
 @cached(last=4, most=1 << 16)
-def built(
+def arrays(
     nodes: np.ndarray, membrane: np.ndarray, bending: np.ndarray, shear: np.ndarray, mixed: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return reference, stiffness and areas of elements with nodes (m, 9, 2) and a section."""
-    stretching, bent, slanted, areas = cartesian(nodes)
+    stretching, bent, slanted, areas = to_cartesian(nodes)
     stiffness = np.zeros((len(nodes), STRAINS, STRAINS))
     stiffness[:, MEMBRANE, MEMBRANE] = integrated(stretching, membrane, areas)
     stiffness[:, BENDING, BENDING] = integrated(bent, bending, areas)
@@ -200,10 +200,10 @@ def built(
     if mixed.any():
         stiffness[:, MEMBRANE, BENDING] = integrated(stretching, mixed, areas, bent)
         stiffness[:, BENDING, MEMBRANE] = stiffness[:, MEMBRANE, BENDING].swapaxes(1, 2)
-    return upright(nodes), stiffness, areas
+    return vectors_at_rest(nodes), stiffness, areas
 
 
-def upright(nodes: np.ndarray) -> np.ndarray:
+def vectors_at_rest(nodes: np.ndarray) -> np.ndarray:
     """Return Q₀ (m, 18, 3) of elements with nodes at plan positions (m, 9, 2) [m]."""
     reference = np.zeros((len(nodes), 18, 3))
     reference[:, :9, :2], reference[:, 9:, 2] = nodes, 1.0
@@ -211,7 +211,7 @@ def upright(nodes: np.ndarray) -> np.ndarray:
 
 
 @cached(last=4, most=1 << 16)
-def cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def to_cartesian(nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return matrices that make Cartesian strains at the Gauss points of sampled ones, and areas. Matrices of
     membrane and bending strains [xx, yy, 2xy], (m, 9, 3, 21) each, and of shear strains [xz, yz], (m, 9, 2,
     12); areas w |det J| (m, 9) [m²]. nodes: (m, 9, 2) [m]. Raises BadInput if an element is inverted."""

@@ -6,9 +6,9 @@ the thickness give
 
     s = ∫∫ ∇eᵀ S(e) dζ dA,   D = ∫∫ ∇eᵀ ∂S/∂e ∇e + S·∇∇e dζ dA,   ∇e = ((1 + ζ κ ∇tᵀ) T_m, ζ t T_b)
 
-with the matrix T from sampled to Cartesian strains (`element.cartesian`). Transverse shear γ, of a
-director inclined by φ, stores ½ κ G h t² tan² φ (`slant`). St Venant–Kirchhoff's law has t = C = 1 and the
-stresses of `Element`.
+with the matrix T from sampled to Cartesian strains (`element.to_cartesian`). Transverse shear γ, of a
+director inclined by φ, stores ½ κ G h t² tan² φ (`shear_energy`). St Venant–Kirchhoff's law has t = C = 1
+and the stresses of `Element`.
 """
 
 from dataclasses import dataclass, replace
@@ -16,9 +16,9 @@ from typing import Any, Self
 
 import numpy as np
 
-from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, built, cartesian, weighed
+from fem_reference.shell.element import BENDING, MEMBRANE, SHEAR, Element, arrays, to_cartesian, weighed
 from fem_reference.shell.laws import Law
-from fem_reference.shell.slant import linear, slant
+from fem_reference.shell.transverse_shear import linear_shear_energy, shear_energy
 from fem_reference.surface.biquadratic import integrated
 from fem_reference.surface.constants import Values, material_with
 from fem_reference.surface.materials import section_of
@@ -46,8 +46,8 @@ class HyperelasticElement(Element):
     @classmethod
     def of(cls, nodes: np.ndarray, material: Material, thickness: float, law: Law) -> Self:
         """Return elements with nodes at (m, 9, 2) [m]. Raises BadInput if one is inverted."""
-        linear, half = built(nodes, *section_of(material, thickness)), 0.5 * thickness
-        return cls(*linear, law, material, *cartesian(nodes)[:3], half * _LEVELS, half * _SHARES)
+        linear, half = arrays(nodes, *section_of(material, thickness)), 0.5 * thickness
+        return cls(*linear, law, material, *to_cartesian(nodes)[:3], half * _LEVELS, half * _SHARES)
 
     def stress(self, strain: np.ndarray) -> np.ndarray:
         """Return s (m, 54), conjugate to the sampled strains."""
@@ -68,7 +68,7 @@ class HyperelasticElement(Element):
         stress = self._response(stretch, t[..., None] * curvature).first * self._volumes[..., None]
         force, moment = stress.sum(axis=2), np.einsum("egza,z->ega", stress, self.heights)
         force = force + np.sum(moment * curvature, axis=-1)[..., None] * slope
-        shear, leaning = (self._shear * self.areas)[..., None], self._slant(stretch, strain)
+        shear, leaning = (self._shear * self.areas)[..., None], self._shear_triad(stretch, strain)
         force = force + shear * leaning.first[..., :3]
         return force, t[..., None] * moment, shear * leaning.first[..., 3:]
 
@@ -86,7 +86,7 @@ class HyperelasticElement(Element):
         force += np.sum(moment * curvature, axis=-1)[..., None, None] * bend
         t, areas = t[..., None, None], self.areas
         mixed = t * (mixed + outer(slope, turned)) + outer(slope, moment)
-        leaning, out = self._shear * self._slant(stretch, strain).second, np.zeros_like(self.stiffness)
+        leaning, out = self._shear * self._shear_triad(stretch, strain).second, np.zeros_like(self.stiffness)
         out[:, MEMBRANE, MEMBRANE] = integrated(self.membrane, force + leaning[..., :3, :3], areas)
         out[:, BENDING, BENDING] = integrated(self.bending, t * t * turn, areas)
         out[:, SHEAR, SHEAR] = integrated(self.slanted, leaning[..., 3:, 3:], areas)
@@ -102,7 +102,7 @@ class HyperelasticElement(Element):
         bent = self.law.thickness(self.material, stretch).value[..., None] * curvature
         values = (self._response(stretch, part).value for part in (bent, 0.0 * bent))
         total, membrane = (float(np.sum(self._volumes * value)) for value in values)
-        shear = self._shear * np.sum(self.areas * self._slant(stretch, strain).value)
+        shear = self._shear * np.sum(self.areas * self._shear_triad(stretch, strain).value)
         return {"membrane": membrane, "bending": total - membrane, "shear": float(shear)}
 
     def _strains(self, strain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -116,13 +116,13 @@ class HyperelasticElement(Element):
         strain = stretch[:, :, None] + self.heights[:, None] * bent[:, :, None]
         return self.law.response(self.material, strain)
 
-    def _slant(self, stretch: np.ndarray, strain: np.ndarray) -> Triad:
+    def _shear_triad(self, stretch: np.ndarray, strain: np.ndarray) -> Triad:
         """Return the shear energy at every element's points, quadratic unless the law is for large
         strains."""
         leaning = np.einsum("egak,ek->ega", self.slanted, strain[:, SHEAR])
         if not self.law.stands_any_strain:
-            return linear(leaning)
-        return slant(self.material.poisson, stretch, leaning)
+            return linear_shear_energy(leaning)
+        return shear_energy(self.material.poisson, stretch, leaning)
 
     @property
     def _shear(self) -> Any:

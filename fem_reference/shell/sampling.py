@@ -38,7 +38,7 @@ def magnitudes(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> n
 @inner(fastmath=REORDERED)
 def sampled(vectors: np.ndarray, tables: np.ndarray, at: np.ndarray, out: np.ndarray) -> None:
     """Write B (54, 18, 3) of one element into zeros, without the zero parts; at: scratch (6, 54)."""
-    _weighed(vectors, tables, at)
+    _weighted_sums(vectors, tables, at)
     for k in range(PLANE):
         b = PLANE + k
         membrane, bending = out[k], out[b]
@@ -65,8 +65,8 @@ def strain_of(vectors: np.ndarray, step: np.ndarray, tables: np.ndarray) -> np.n
     out = zeros((len(step), strains))
     at, by = empty((6, strains)), empty((6, strains))
     for e in range(len(step)):
-        _weighed(vectors[e], tables, at)
-        _weighed(step[e], tables, by)
+        _weighted_sums(vectors[e], tables, at)
+        _weighted_sums(step[e], tables, by)
         strain = out[e]
         for c in range(3):
             place, turn, place_by, turn_by = at[c], at[3 + c], by[c], by[3 + c]
@@ -88,7 +88,7 @@ def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np
     out, at = empty((len(vectors), 18, 3)), empty((6, strains))
     on_places, on_turns = zeros(strains), zeros(strains)  # factors of the tables, of φ and of d
     for e in range(len(vectors)):
-        _weighed(vectors[e], tables, at)
+        _weighted_sums(vectors[e], tables, at)
         pull = stress[e]
         for c in range(3):
             place, turn = at[c], at[3 + c]
@@ -102,13 +102,13 @@ def forces_of(vectors: np.ndarray, stress: np.ndarray, tables: np.ndarray) -> np
                 s = 2 * PLANE + k
                 on_places[k] += pull[s] * turn[s]
                 on_turns[s] = pull[s] * place[k]
-            _gathered(tables, on_places, out[e, :9, c])
-            _gathered(tables, on_turns, out[e, 9:, c])
+            _sums_over_points(tables, on_places, out[e, :9, c])
+            _sums_over_points(tables, on_turns, out[e, 9:, c])
     return out
 
 
 @inner(fastmath=REORDERED)
-def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
+def _weighted_sums(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
     """Write sums (6, 54) of one element's vectors (18, 3) with the tables, positions then directors."""
     for row in range(6):
         v, total = vectors[9 * (row // 3) : 9 * (row // 3) + 9, row % 3], out[row]
@@ -120,7 +120,7 @@ def _weighed(vectors: np.ndarray, tables: np.ndarray, out: np.ndarray) -> None:
 
 
 @inner(fastmath=REORDERED)
-def _gathered(tables: np.ndarray, by: np.ndarray, out: np.ndarray) -> None:
+def _sums_over_points(tables: np.ndarray, by: np.ndarray, out: np.ndarray) -> None:
     """Write sums (9,) over the points of the tables times factors (54,)."""
     for i in range(9):
         total = 0.0

@@ -43,7 +43,7 @@ from fem_reference.solid.supports import applied, of_scene
 from fem_reference.surface import rod
 from fem_reference.surface.actuator_forces import HoldingForces
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS
-from fem_reference.surface.carried import add_carried
+from fem_reference.surface.payloads import add_payloads
 from fem_reference.surface.rod import BoundRods, block_diagonal
 from sheetbench.answers.solution import FieldMesh
 from sheetbench.choices import STRAIN_LAW
@@ -103,7 +103,7 @@ class DiscreteSolid(DiscreteElements):
         """Return ∫ ρ N N dV (m, 3 s, 3 s) of the stacks, with payloads on columns' means and directors."""
         blocks = self._stack(np.einsum("eij,cd->eicjd", self._products(), np.eye(3)))
         if self.scene.masses:
-            add_carried(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))
+            add_payloads(self.scene, self.plan, payloads := np.zeros((len(blocks), 18, 3, 18, 3)))
             blocks += self._of_columns(payloads)
         return blocks
 

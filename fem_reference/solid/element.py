@@ -26,10 +26,9 @@ sheet. It is a function of strain only, so that the laws keep their form and the
 Sources: Bucalem & Bathe (1993) for the tying; Sussman & Bathe (1987) for the projection.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import Self
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -111,7 +110,7 @@ class Bricks:
     volumes: np.ndarray
 
     @classmethod
-    def build(cls, positions: np.ndarray, law: SolidLaw, material: Material | Constants) -> Bricks:
+    def build(cls, positions: np.ndarray, law: SolidLaw, material: Material | Constants) -> Self:
         """Return elements with nodes at positions (m, 27, 3), in scikit-fem's order of `ElementHex2`."""
         ref = reference()
         _, slope = shape(ref.points)

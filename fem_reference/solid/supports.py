@@ -1,4 +1,4 @@
-"""Held components of the solid's nodes by supports, as a function of the load factor.
+"""Components of the solid's nodes held by supports, as a function of the load factor.
 
 Hinged and held edges hold the mean of every column along the edge, and the face turns freely about it; a
 held mid-line would be equivalent for a thin sheet, except for the dent of a line support, which grows without
@@ -43,8 +43,8 @@ CLAMPS = ("shell-like", "mean", "full")
 
 @dataclass(frozen=True)
 class ColumnSupports:
-    """Held components of columns. edges: name → components q that it holds (n, levels, 3); by_mean: (n,),
-    columns whose mean is held."""
+    """Components of columns held by supports. edges: name → components q that it holds (n, levels, 3);
+    by_mean: (n,), columns whose mean is held."""
 
     line: Supports
     columns: Columns

@@ -14,7 +14,7 @@ import numpy as np
 
 from fem_reference.surface.biquadratic import SIDE_MASS, THREE, THREE_WEIGHTS, side_shape
 from fem_reference.surface.rod import Rod
-from fem_reference.surface.supports import Driven
+from fem_reference.surface.supports import PrescribedEdge
 from sheetbench.scenes import Scene
 
 
@@ -36,7 +36,7 @@ class HoldingForces(NamedTuple):
 
 
 def exerted(
-    scene: Scene, edges: Iterable[OnEdge], moved: dict[str, Driven], held: HoldingForces
+    scene: Scene, edges: Iterable[OnEdge], moved: dict[str, PrescribedEdge], held: HoldingForces
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Return each actuator's wrench on the sheet, and the rods' line force (n, 3) [N/m], zero off their
     edges. A wrench is the force and moment (segments, 6) [N, N·m] of its segments, by the actuator's name."""
@@ -51,7 +51,7 @@ def exerted(
     return {name: wrenches[name] for name in scene.named_actuators()}, line
 
 
-def _of_motion(moved: Driven, held: HoldingForces) -> np.ndarray:
+def _of_motion(moved: PrescribedEdge, held: HoldingForces) -> np.ndarray:
     """Return force and moment about the edge's middle, (1, 6)."""
     nodal, position = moved.part[:, None] * held.nodal[moved.nodes], held.position[moved.nodes]
     arm = position - 0.5 * (position.min(axis=0) + position.max(axis=0))

@@ -1,6 +1,6 @@
 """Loads of the sheet: dead nodal forces, a follower pressure and a follower edge moment.
 
-gravity    f = ∫ ρ h g N dA                       dead; weight of payloads: `surface.carried`
+gravity    f = ∫ ρ h g N dA                       dead; weight of payloads: `surface.payloads`
            f_d = ∫ (∫ρz dz) g N dA                dead, on the directors, of layers of different density
 point      f = F N(x)                             dead
 edge       f = ∫ q N dL                           dead, per undeformed length
@@ -12,18 +12,16 @@ L runs along ν × e_z, ν the outward normal, so that m > 0 turns the edge towa
 the virtual work of a moment m t̂ on δd = δθ × d is δd · (m t̂ × d). Units: N, N/m, N·m/m, Pa, m.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
 from fem_reference.surface.biquadratic import AT_GAUSS, GAUSS_WEIGHTS, THREE, THREE_WEIGHTS, areas, side_shape
-from fem_reference.surface.carried import carried
 from fem_reference.surface.location import shares
 from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan, facets_on
+from fem_reference.surface.payloads import payloads
 from sheetbench.scenes import EdgeLoad, PointLoad, Pressure, Scene, encloses_volume
 from sheetbench.scenes.objects.loads import AreaLoad
 
@@ -75,7 +73,7 @@ class Line:
     speed: np.ndarray
 
     @classmethod
-    def along(cls, plan: Plan, facets: np.ndarray, elements: np.ndarray | None = None) -> Line:
+    def along(cls, plan: Plan, facets: np.ndarray, elements: np.ndarray | None = None) -> Self:
         """Return the sides at `facets` (k,) of a plan's mesh, of given elements (k,) or of any."""
         mesh = plan.mesh
         elements = mesh.f2t[0, facets] if elements is None else elements
@@ -158,7 +156,7 @@ def of_scene(scene: Scene, plan: Plan) -> tuple[np.ndarray, list[Follower]]:
         weighed, turned = (areas(corners) * per_area for per_area in (of.per_area, of.moment_per_area))
         dead.append(spread(plan, plan.elements, weighed @ AT_GAUSS[0], acceleration))
         on_directors = spread(plan, plan.elements, turned @ AT_GAUSS[0], acceleration)
-        for on, mass, _ in carried(scene, plan):
+        for on, mass, _ in payloads(scene, plan):
             dead.append(spread(plan, plan.elements[on], mass.sum(axis=2), acceleration))
     for load in scene.loads:
         factor = load.last_factor

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.surface.alike import mesh_of_cells
 from fem_reference.surface.borders import borders_of, has_lines, shapes_of
 from fem_reference.surface.outlined import LAYERS, quadrilaterals
+from fem_reference.surface.placement import mesh_of_cells
 from sheetbench.errors import BadInput
 from sheetbench.numerics.cache import cached
 from sheetbench.scenes import EDGES, EdgeLoad, PiecewiseCurve, Scene, Sheet, Symmetric

@@ -23,7 +23,7 @@ TURN = np.pi / 4.0  # turn of a curve from one vertex of the triangles to the ne
 GROWTH = 0.5  # of sizes, with the distance
 ALONG = 2.0  # largest size beside a border, over its length
 SMALLEST, NARROWEST = 1.0 / 256.0, 1.0 / 32.0  # sizes by turns and by gaps
-GRID, NEAR = 1e-9, 1e-7  # of rounding; distance within which points are on the sheet
+GRID, ATOL = 1e-9, 1e-7  # of rounding; distance within which points are on the sheet
 CLEARANCE = 0.6  # distance between borders and inner points, over the local size
 SAMPLES = 4  # of a border, per size
 
@@ -45,7 +45,7 @@ def borders_between_corners(region: BaseGeometry, inner: BaseGeometry) -> list[L
     import shapely
 
     lines = shapely.get_parts(shapely.union_all([region.boundary, inner], grid_size=GRID))
-    on_sheet = shapely.distance(region, shapely.line_interpolate_point(lines, 0.5, normalized=True)) < NEAR
+    on_sheet = shapely.distance(region, shapely.line_interpolate_point(lines, 0.5, normalized=True)) < ATOL
     borders: list[LineString] = []
     for line in shapely.get_parts(shapely.line_merge(shapely.union_all(lines[on_sheet]))):
         points = shapely.get_coordinates(line)
@@ -192,7 +192,7 @@ def filling(
     from scipy.spatial import KDTree  # not loaded for rectangles
 
     for first, second in sorted(KDTree(points).query_pairs(gaps.max(initial=0.0))):
-        if keeps[first // turns] and NEAR < np.linalg.norm(points[first] - points[second]) < gaps[second]:
+        if keeps[first // turns] and ATOL < np.linalg.norm(points[first] - points[second]) < gaps[second]:
             keeps[second // turns] = False
     return np.unique(np.round(images[keeps].reshape(-1, 2), 9), axis=0)
 

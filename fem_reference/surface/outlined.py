@@ -19,10 +19,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import MeshQuad, MeshQuad2
 
-from fem_reference.surface.alike import DIGITS, CentredPlan, PlanCells, centred, mesh_of_cells, reflection
 from fem_reference.surface.biquadratic import AT_GAUSS, jacobians
 from fem_reference.surface.mesh_points import (
-    NEAR,
+    ATOL,
     Sides,
     SizeField,
     borders_between_corners,
@@ -30,6 +29,7 @@ from fem_reference.surface.mesh_points import (
     filling,
     on_borders,
 )
+from fem_reference.surface.placement import DIGITS, CentredPlan, PlanCells, centred, mesh_of_cells, reflection
 from sheetbench.errors import NoMesh
 from sheetbench.numerics.cache import cached
 from sheetbench.scenes.objects.plan_mesh import divided
@@ -76,17 +76,17 @@ def quadrilaterals(
     on_border = ~cut[sides.border]
     border, span = sides.border[on_border], sides.span[on_border]
     quarters = [on_borders(borders, border, span @ [1.0 - at, at]) for at in (0.25, 0.5, 0.75)]
-    joined = _joined(points, triangles, sides, mirror[sides.border], plan)
+    joined = _merge_triangles(points, triangles, sides, mirror[sides.border], plan)
     cells, ends, places = plan.unfolded(joined, sides.ends[on_border], np.stack(quarters, axis=1))
-    mesh, middles = _cut(cells, ends, places[:, 1])
+    mesh, middles = _subdivide(cells, ends, places[:, 1])
     ends = np.concatenate([np.column_stack([ends[:, end], middles]) for end in (0, 1)])
     places = np.concatenate([places[:, 0], places[:, 2]])
-    mesh = _smoothed(mesh, np.unique(ends))
+    mesh = _smooth(mesh, np.unique(ends))
     rim = _keys(mesh.facets[:, mesh.boundary_facets()].T, mesh.nvertices)
     if not np.isin(rim, _keys(ends, mesh.nvertices)).all():  # a part of the sheet has no triangles
         raise NoMesh(TOO_CLOSE)
     if graded:
-        mesh, ends, places = _layered(mesh, ends, places)
+        mesh, ends, places = _graded(mesh, ends, places)
     mesh, places = plan.back(mesh, places)
     return _biquadratic(mesh, ends, places, unit)
 
@@ -136,7 +136,7 @@ def _keys(ends: np.ndarray, count: int) -> np.ndarray:
     return np.asarray(low * np.int64(count) + high)
 
 
-def _joined(
+def _merge_triangles(
     points: np.ndarray, triangles: np.ndarray, sides: Sides, mirror: np.ndarray, plan: CentredPlan
 ) -> PlanCells:
     """Return the quadrilaterals of two triangles each, the best first, and the remaining triangles. mirror:
@@ -184,7 +184,7 @@ def _angles(corners: np.ndarray) -> np.ndarray:
     return np.asarray(np.arctan2(turn, np.sum(onwards * back, axis=-1)) % (2.0 * np.pi))
 
 
-def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
+def _subdivide(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray]:
     """Return the mesh of every cell's corners with its centre, and the mid-side vertices (k,) of sides on
     borders. ends (k, 2): the sides' vertices; places (k, 2): of their middles."""
     count, cells = len(part.points), [part.quads, part.triangles]
@@ -195,7 +195,7 @@ def _cut(part: PlanCells, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQua
     return mesh_of_cells(vertices, elements), middles
 
 
-def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
+def _smooth(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
     """Return the mesh with its free vertices moved, where none of their elements gets worse."""
     places, elements, ends = mesh.p.T.copy(), mesh.t.T, mesh.facets
     free = np.ones(len(places), bool)
@@ -207,9 +207,9 @@ def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
         np.add.at(total, ends[0], places[ends[1]])
         np.add.at(total, ends[1], places[ends[0]])
         moved = np.where(free[:, None], total / degree, places)
-        before = _worst(places, elements)
+        before = _largest_skew(places, elements)
         for _ in range(ROUNDS):
-            back = _worst(moved, elements) > before + 1e-9
+            back = _largest_skew(moved, elements) > before + 1e-9
             if not back.any():
                 break
             moved[back] = places[back]
@@ -219,7 +219,7 @@ def _smoothed(mesh: MeshQuad, fixed: np.ndarray) -> MeshQuad:
     return mesh_of_cells(places, mesh.t.T)
 
 
-def _worst(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
+def _largest_skew(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
     """Return the largest difference (n,) from a right angle in the elements (m, 4) at each vertex."""
     skew = np.abs(_angles(at[elements]) - 0.5 * np.pi).max(axis=1)
     out = np.zeros(len(at))
@@ -227,7 +227,7 @@ def _worst(at: np.ndarray, elements: np.ndarray) -> np.ndarray:
     return out
 
 
-def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray, np.ndarray]:
+def _graded(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[MeshQuad, np.ndarray, np.ndarray]:
     """Return the mesh with further rows along its rim, for which its vertices move inwards; also ends and
     places. ends (k, 2), places (k, 2): of sides on borders and of their middles."""
     keys, rim = _keys(ends, mesh.nvertices), mesh.boundary_facets()
@@ -252,9 +252,9 @@ def _layered(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray) -> tuple[Mesh
         meets = count[start_vertex] > 0.0
         step, away = points[end_vertex[meets]] - points[start_vertex[meets]], move[start_vertex[meets]]
         move[start_vertex[meets]] = step * (np.sum(away**2, axis=1) / np.sum(away * step, axis=1))[:, None]
-    allowed, share = np.maximum(_worst(points, mesh.t.T), SKEWEST), np.ones(len(points))
+    allowed, share = np.maximum(_largest_skew(points, mesh.t.T), SKEWEST), np.ones(len(points))
     for _ in range(HALVINGS):
-        share[_worst(points + LAYERS[-1] * share[:, None] * move, mesh.t.T) > allowed + 1e-9] *= 0.5
+        share[_largest_skew(points + LAYERS[-1] * share[:, None] * move, mesh.t.T) > allowed + 1e-9] *= 0.5
     move *= share[:, None]
     in_middle, bulge = move[ends].mean(axis=1), places - points[ends].mean(axis=1)
     in_middle[on_rim] -= share[ends[on_rim]].mean(axis=1)[:, None] * bulge[on_rim]  # rows straighten inwards
@@ -282,7 +282,7 @@ def _biquadratic(mesh: MeshQuad, ends: np.ndarray, places: np.ndarray, unit: np.
     straight, at = curved.doflocs.T, curved.doflocs.T.copy()
     facets = _places(_keys(ends, mesh.nvertices), keys)
     middles = curved.dofs.facet_dofs[0, facets]
-    bent = np.abs(places - straight[middles]).max(axis=1) > NEAR  # by more than rounding of the vertices
+    bent = np.abs(places - straight[middles]).max(axis=1) > ATOL  # by more than rounding of the vertices
     at[middles[bent]] = places[bent]
     for _ in range(2):
         at[nodes[:, 8]] = 0.5 * at[nodes[:, 4:8]].sum(axis=1) - 0.25 * at[nodes[:, :4]].sum(axis=1)

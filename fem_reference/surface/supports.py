@@ -1,4 +1,4 @@
-"""Held positions and directors of supports and moved edges, by the load factor or time.
+"""Positions and directors held by supports and moved edges, by the load factor or time.
 
 The position φ = X + u and the director d of every node may be held. `scenes.meaning.kinematics` gives their
 values at a bent rod, a tilted clamp or a motion; statics take the last pose of a motion and the last sample
@@ -24,7 +24,7 @@ ROUNDED = 1e-9  # relative difference of slopes before and after a moment that c
 
 
 @dataclass(frozen=True)
-class Driven:
+class PrescribedEdge:
     """Nodes (k,) of a bent, tilted or moved edge, and their plan positions (k, 2) [m]. part: share of the
     force on each node that belongs to the edge (k,)."""
 
@@ -36,16 +36,16 @@ class Driven:
 
 @dataclass(frozen=True)
 class Supports:
-    """Held components: edges: name → components of the position (n, 3); director (n,). tilt: (n, 2), whether
-    the director's component along x or y is held at 0, as on a plane of symmetry; turning: held edges that
-    are bent or tilted; moved: moved edges, by the actuators' names; shifts: the courses of the supports that
-    move (`scenes.supports.Motion`), by name."""
+    """Components held by supports. edges: name → components of the position (n, 3); director (n,). tilt: (n,
+    2), whether the director's component along x or y is held at 0, as on a plane of symmetry; turning: held
+    edges that are bent or tilted; moved: moved edges, by the actuators' names; shifts: the courses of the
+    supports that move (`scenes.supports.Motion`), by name."""
 
     edges: dict[str, np.ndarray]
     director: np.ndarray
     tilt: np.ndarray
-    turning: tuple[Driven, ...]
-    moved: dict[str, Driven]
+    turning: tuple[PrescribedEdge, ...]
+    moved: dict[str, PrescribedEdge]
     shifts: dict[str, PiecewiseCurve]
 
     @cached_property
@@ -54,7 +54,7 @@ class Supports:
         return sum(self.edges.values(), np.zeros((len(self.director), 3), dtype=bool))
 
     @property
-    def driven(self) -> tuple[Driven, ...]:
+    def driven(self) -> tuple[PrescribedEdge, ...]:
         """All edges with prescribed places; at a common corner the last one counts."""
         return (*self.turning, *self.moved.values())
 
@@ -137,9 +137,9 @@ def of_scene(scene: Scene, plan: Plan) -> Supports:
         edges[motion.held_as] = np.zeros((len(nodes), 3), dtype=bool)
         edges[motion.held_as][on_edge[motion.edge]] = True
 
-    def driven(edge: DrivenEdge) -> Driven:
+    def driven(edge: DrivenEdge) -> PrescribedEdge:
         on = on_edge[edge.edge]
-        return Driven(on, nodes[on], edge, 1.0 / np.maximum(movers[on], 1.0))
+        return PrescribedEdge(on, nodes[on], edge, 1.0 / np.maximum(movers[on], 1.0))
 
     turning = tuple(driven(edge) for edge in bent_or_tilted(scene.supports, scene.sheet))
     moved = {name: driven(MovedEdge(motion, scene.sheet)) for name, motion in motions.items()}

@@ -32,7 +32,7 @@ from fem_reference.solid.materials import lame
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import rectangle
 from fem_reference.verification.rows import Row, convergence
-from fem_reference.verification.specimens import around, linear_step, specimen
+from fem_reference.verification.specimens import linear_step, specimen, supports
 from sheetbench.numerics.direct import DirectSolver
 from sheetbench.scenes import Clamped, Material, Scene, Sheet
 
@@ -56,7 +56,7 @@ def plate() -> Iterator[Row]:
     """Yield errors on the finest mesh, and the order of the last refinement, of plate and shell."""
     for model in MODELS:
         for ratio in RATIOS:
-            scene = specimen(Sheet(1.0, 1.0, ratio), MATERIAL, around(Clamped))
+            scene = specimen(Sheet(1.0, 1.0, ratio), MATERIAL, supports(Clamped))
             errors = np.transpose([_errors(model, scene, n) for n in ELEMENTS])
             mesh = f"{model} {ELEMENTS[-1]} × {ELEMENTS[-1]}"
             for name, of_field in zip(("deflection", "tilt"), errors, strict=True):

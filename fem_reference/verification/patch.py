@@ -20,7 +20,7 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.surface.mesh import rectangle
 from fem_reference.surface.outlined import quadrilaterals
-from fem_reference.verification.rows import EXACT, Row, absolutely
+from fem_reference.verification.rows import EXACT, Row, absolute_row
 from fem_reference.verification.specimens import specimen
 from sheetbench.scenes import Material, Sheet
 
@@ -46,7 +46,7 @@ def rows() -> Iterator[Row]:
     for (name, mesh), (kind, state, strained) in product(meshes.items(), STATES):
         unbalanced = _unbalanced(kind, mesh, strained)
         label = f"{kind.model} {mesh.nelements} elements, {name}"
-        yield absolutely(f"unbalanced, {state}", label, 0.0, EXACT, unbalanced, ROUNDING)
+        yield absolute_row(f"unbalanced, {state}", label, 0.0, EXACT, unbalanced, ROUNDING)
 
 
 def distorted() -> MeshQuad:

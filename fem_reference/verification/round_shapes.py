@@ -44,13 +44,13 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.solid.discrete import DiscreteSolid
 from fem_reference.solid.element import shape
 from fem_reference.solid.materials import lame
-from fem_reference.surface.alike import mesh_of_cells
 from fem_reference.surface.biquadratic import AT_GAUSS, areas
 from fem_reference.surface.loads import Line, spread
 from fem_reference.surface.materials import section_of
 from fem_reference.surface.mesh import mesh_of, plan_of, quarters
-from fem_reference.verification.rows import THEORY, Row, absolutely, curve, relatively
-from fem_reference.verification.specimens import linear_step, moved, specimen, valid
+from fem_reference.surface.placement import mesh_of_cells
+from fem_reference.verification.rows import THEORY, Row, absolute_row, curve, relative_row
+from fem_reference.verification.specimens import linear_step, specimen, u_at, valid
 from fem_reference.vibration import modes
 from sheetbench.scenes import Clamped, EdgeLoad, Material, Scene, Sheet, Symmetric
 from sheetbench.scenes.objects.cutouts import Cutout
@@ -97,13 +97,13 @@ def bending() -> Iterator[Row]:
     meshes = coarse, cut(coarse)
     for kind in (DiscretePlate, DiscreteShell):
         model, source = kind.model, "Timoshenko 1959, art. 17"
-        mesh, computed = f"{model} {ELEMENTS} × {ELEMENTS}", moved(thin, at_rim, model, ELEMENTS)[2]
-        yield relatively("deflection of the rim [m]", mesh, deflection_at_rim(), source, computed, TOLERANCE)
+        mesh, w = f"{model} {ELEMENTS} × {ELEMENTS}", u_at(thin, at_rim, model, ELEMENTS)[2]
+        yield relative_row("deflection of the rim [m]", mesh, deflection_at_rim(), source, w, TOLERANCE)
         answers = (solve_on(kind, refined, thicker) for refined in meshes)
         rims = [answer.displacement(np.array([at_rim]))[0, 2] for answer in answers]
         errors = [abs(rim - deflection_at_rim(THICKER)) for rim in rims]
         quantity, mesh = f"order, h/a = {THICKER / RADIUS:g}", f"{model} {UNCUT} × {UNCUT}, cut in 4 and 16"
-        yield absolutely(quantity, mesh, 4.0, THEORY, np.log2(errors[0] / errors[1]), OF_ORDER)
+        yield absolute_row(quantity, mesh, 4.0, THEORY, np.log2(errors[0] / errors[1]), OF_ORDER)
 
 
 def cut(mesh: MeshQuad) -> MeshQuad2:
@@ -130,14 +130,14 @@ def frequencies() -> Iterator[Row]:
         mesh, by_diameters = f"{model} {ELEMENTS} × {ELEMENTS}", {1: values[:2], 0: values[2], 2: values[3:5]}
         for n, pair in by_diameters.items():
             quantity, source = f"λ² with {n} nodal diameters", "Leissa 1969, ch. 2"
-            yield relatively(quantity, mesh, frequency(n), source, np.mean(pair), OF_FREQUENCY)
+            yield relative_row(quantity, mesh, frequency(n), source, np.mean(pair), OF_FREQUENCY)
 
 
 def strip_with_hole() -> Iterator[Row]:
     """Yield the largest stress at the hole over the mean one far away."""
     for share, published in HOWLAND.items():
         quantity, mesh = f"stress at a hole of {share:g} of the width", f"plate {ACROSS} across"
-        yield relatively(quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
+        yield relative_row(quantity, mesh, published, "Howland 1930", concentration(share), TOLERANCE)
 
 
 def slit_annulus() -> Iterator[Row]:
@@ -150,7 +150,7 @@ def slit_annulus() -> Iterator[Row]:
 def elliptic_plate() -> Iterator[Row]:
     """Yield σ_yy [MPa] at D."""
     computed, mesh = stress_at_d(*BRICKS)[1, 1] / 1e6, f"solid {BRICKS[0]} × {BRICKS[1]} × {BRICKS[2]}"
-    yield relatively("σ_yy at D [MPa]", mesh, -5.38, "NAFEMS 1990, LE10", computed, WITHIN)
+    yield relative_row("σ_yy at D [MPa]", mesh, -5.38, "NAFEMS 1990, LE10", computed, WITHIN)
 
 
 def deflection_at_rim(thick: float = THICK) -> float:

@@ -46,7 +46,7 @@ class Row:
         return f"{number(100.0 * self.tolerance)} %"
 
 
-def absolutely(
+def absolute_row(
     quantity: str, mesh: str, published: float, source: str, computed: float, tolerance: float
 ) -> Row:
     """Return a row held to a difference in the quantity's own unit."""
@@ -54,10 +54,10 @@ def absolutely(
     return Row("", quantity, mesh, float(published), source, float(computed), None, tolerance, passed)
 
 
-def relatively(*cells: Any, scale: float | None = None) -> Row:
-    """Return a row of the arguments of `absolutely`, held to a relative difference. It is relative to `scale`
-    where given, else to the published value."""
-    row = absolutely(*cells)
+def relative_row(*cells: Any, scale: float | None = None) -> Row:
+    """Return a row of the arguments of `absolute_row`, held to a relative difference. It is relative to
+    `scale` where given, else to the published value."""
+    row = absolute_row(*cells)
     relative = abs(row.computed - row.published) / abs(row.published if scale is None else scale)
     return replace(row, relative=relative, passed=relative <= row.tolerance)
 
@@ -65,7 +65,7 @@ def relatively(*cells: Any, scale: float | None = None) -> Row:
 def mesh_change(mesh: str, coarse: np.ndarray, fine: np.ndarray, tolerance: float) -> Row:
     """Return a row of the largest relative change of the answers from half the mesh."""
     change = np.max(np.abs(np.asarray(fine) - coarse)) / np.max(np.abs(fine))
-    return absolutely("change from half the mesh", mesh, 0.0, OURS, change, tolerance)
+    return absolute_row("change from half the mesh", mesh, 0.0, OURS, change, tolerance)
 
 
 def convergence(
@@ -74,8 +74,8 @@ def convergence(
     """Yield rows of the error on the finest mesh and of the order of the last refinement. errors: on meshes
     with twice the elements of the one before; largest: error allowed."""
     coarse, fine = errors[-2:]
-    yield absolutely(f"error {of}", mesh, 0.0, source, fine, largest)
-    yield absolutely(f"order {of}", mesh, order, THEORY, np.log2(coarse / fine), SLACK)
+    yield absolute_row(f"error {of}", mesh, 0.0, source, fine, largest)
+    yield absolute_row(f"order {of}", mesh, order, THEORY, np.log2(coarse / fine), SLACK)
 
 
 def curve(
@@ -99,7 +99,7 @@ def curve(
             for name, expected, computed in zip(names, values, answers[load], strict=True):
                 scale = size if abs(expected) < 1e-9 * size else None
                 cells = name.format(load), mesh, expected, authority, computed, tolerance
-                yield relatively(*cells, scale=scale)
+                yield relative_row(*cells, scale=scale)
         load = max(published) if half_at is None else half_at
         yield mesh_change(mesh, answer(model, load, elements // 2), answers[load], tolerance)
 
@@ -110,4 +110,4 @@ def lowest(
     """Yield rows of the published lowest frequencies; quantity: with a place for the mode's number."""
     for mode, (expected, computed) in enumerate(zip(published, frequencies, strict=True), 1):
         if expected is not None:
-            yield relatively(quantity.format(mode), mesh, expected, source, computed, tolerance)
+            yield relative_row(quantity.format(mode), mesh, expected, source, computed, tolerance)

@@ -28,12 +28,12 @@ def specimen(
     return Scene(name="specimen", sheet=sheet, material=material, supports=tuple(supports), **more)
 
 
-def around(kind: type[Clamped | Hinged], edges: Iterable[str] = EDGES, **more: Any) -> list[Support]:
+def supports(kind: type[Clamped | Hinged], edges: Iterable[str] = EDGES, **more: Any) -> list[Support]:
     """Return supports of a kind along edges, by default all; more: their keys."""
     return [kind.model_validate({"edge": edge, **more}) for edge in edges]
 
 
-def moved(
+def u_at(
     scene: Scene, at: tuple[float, float], model: str, elements: int | tuple[int, int], **options: Any
 ) -> np.ndarray:
     """Return the displacement (3,) [m] of a plan point in a model's answer, nan without an equilibrium."""

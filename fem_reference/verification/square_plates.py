@@ -47,8 +47,8 @@ import numpy as np
 
 from fem_reference.linear_buckling import buckling
 from fem_reference.surface.materials import section_of
-from fem_reference.verification.rows import EXACT, OURS, Row, curve, lowest, mesh_change, relatively
-from fem_reference.verification.specimens import E1, E2, FIBRES, NU, G, around, moved, specimen
+from fem_reference.verification.rows import EXACT, OURS, Row, curve, lowest, mesh_change, relative_row
+from fem_reference.verification.specimens import E1, E2, FIBRES, NU, G, specimen, supports, u_at
 from fem_reference.vibration import modes
 from sheetbench.scenes import Clamped, Hinged, Layer, Material, Sheet
 from sheetbench.scenes.objects.natural import Natural
@@ -147,7 +147,7 @@ def locking(model: str) -> Iterator[Row]:
     for poisson, ratio in product(sweep.poissons, sweep.ratios):
         fixed, converged = (deflection(model, "clamped", ratio, n, poisson) for n in (FIXED, sweep.finer))
         quantity = f"w D/qL⁴ at h/a = {ratio:g}, ν = {poisson:g}"
-        yield relatively(quantity, mesh, converged, source, fixed, sweep.tolerance)
+        yield relative_row(quantity, mesh, converged, source, fixed, sweep.tolerance)
 
 
 def deflection(model: str, kind: str, ratio: float, elements: int, poisson: float = 0.3) -> float:
@@ -155,15 +155,15 @@ def deflection(model: str, kind: str, ratio: float, elements: int, poisson: floa
     material = Material(young=1e7, poisson=poisson, density=1000.0)
     rigidity = section_of(material, ratio).bending[0, 0]
     load = SMALL * ratio * rigidity / CLAMPED[0.001]
-    edges = around(Hinged, twist="held") if kind == "hinged" else around(Clamped)
+    edges = supports(Hinged, twist="held") if kind == "hinged" else supports(Clamped)
     scene = specimen(Sheet(1.0, 1.0, ratio), material, edges, load)
-    return float(moved(scene, (0.5, 0.5), model, elements)[2]) * rigidity / load
+    return float(u_at(scene, (0.5, 0.5), model, elements)[2]) * rigidity / load
 
 
 def frequencies(benchmark: Benchmark) -> Iterator[Row]:
     """Yield six modes of every model of one of `BENCHMARKS`."""
     _, sheet, edges, source, unit, converged, bounds, models = benchmark
-    scene, scale = specimen(sheet, STEEL, around(Clamped, edges)), 1.0
+    scene, scale = specimen(sheet, STEEL, supports(Clamped, edges)), 1.0
     if unit == COEFFICIENT:
         rigidity = section_of(STEEL, sheet.thickness).bending[0, 0]
         scale = 2.0 * np.pi * sheet.length_x**2 * np.sqrt(STEEL.density * sheet.thickness / rigidity)
@@ -189,10 +189,10 @@ def fibres(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row
     unit = 16.0 / pi**6 * sum(sin(m * pi / 2) * sin(n * pi / 2) / (m * n * delta(m, n)) for m, n in odd)
     load, inertia = SMALL * THIN.thickness / unit, FIBRES.density * THIN.thickness
     exact = sorted(0.5 * pi * sqrt(delta(*mn) / inertia) for mn in product(range(1, 12), repeat=2))[:6]
-    scene = specimen(THIN, FIBRES, around(Hinged, twist="held"), load, layers=layers)
+    scene = specimen(THIN, FIBRES, supports(Hinged, twist="held"), load, layers=layers)
     for model in ("plate", "shell"):
-        mesh, middle = MESH.format(model), float(moved(scene, (0.5, 0.5), model, ELEMENTS)[2])
-        yield relatively("w D22/qa⁴", mesh, unit * across, source, middle / load * across, 5e-3)
+        mesh, middle = MESH.format(model), float(u_at(scene, (0.5, 0.5), model, ELEMENTS)[2])
+        yield relative_row("w D22/qa⁴", mesh, unit * across, source, middle / load * across, 5e-3)
         computed = modes(scene, model, ELEMENTS, count=6).frequencies
         yield from lowest("mode {} [Hz]", mesh, exact, "Leissa 1969", computed, 1e-2)
 
@@ -200,22 +200,22 @@ def fibres(layers: tuple[Layer, ...], outer: float, source: str) -> Iterator[Row
 def self_bending() -> Iterator[Row]:
     """Yield a cantilever's quarter turn, a heated plate's buckling, a stretched plate's frequency."""
     length, h, poisson, kirchhoff = 0.2, 0.002, 0.3, "Kirchhoff's plate"
-    material, hinges = Material(young=1e6, poisson=poisson, density=1e3), around(Hinged)
+    material, hinges = Material(young=1e6, poisson=poisson, density=1e3), supports(Hinged)
     k, mesh, half = 0.5 * np.pi / length, "16 × 8", 0.5 * length
     curled = Natural(curvature=(k, 0.0, 0.0))
     scene = specimen(Sheet(length, half, h), material, (Clamped(edge="x0"),), natural=curled)
-    tip = moved(scene, (length, 0.5 * half), "shell", (16, 8))
+    tip = u_at(scene, (length, 0.5 * half), "shell", (16, 8))
     for name, exact, computed in (("ux", 1.0 / k - length, tip[0]), ("uz", 1.0 / k, tip[2])):
-        yield relatively(f"{name} of the tip of a quarter turn [m]", mesh, exact, EXACT, computed, 1e-6)
+        yield relative_row(f"{name} of the tip of a quarter turn [m]", mesh, exact, EXACT, computed, 1e-6)
     strain = np.pi**2 * h**2 / (6.0 * (1.0 + poisson) * length**2)
     hot = Natural(strain=(strain, strain, 0.0))
     heated = specimen(Sheet(length, length, h), material, hinges, natural=hot)
     computed = buckling(heated, "shell", 12).load_factors[0] * strain
-    yield relatively("strain that buckles a heated plate", "12 × 12", strain, kirchhoff, computed, 0.012)
+    yield relative_row("strain that buckles a heated plate", "12 × 12", strain, kirchhoff, computed, 0.012)
     h, tension, q = h / 8.0, 0.05, 2.0 * np.pi**2 / length**2
     pulled = Natural(pretension=(tension, tension))
     stretched = specimen(Sheet(length, length, h), material, hinges, natural=pulled)
     rigidity = section_of(material, h).bending[0, 0]
     exact = np.sqrt((rigidity * q**2 + tension * q) / (material.density * h)) / (2.0 * np.pi)
     computed = modes(stretched, "shell", 8, 1, about="deformed").frequencies[0]
-    yield relatively("frequency of a stretched plate [Hz]", "8 × 8", exact, kirchhoff, computed, 1e-3)
+    yield relative_row("frequency of a stretched plate [Hz]", "8 × 8", exact, kirchhoff, computed, 1e-3)

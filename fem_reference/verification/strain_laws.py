@@ -25,8 +25,8 @@ from fem_reference.discrete.static import Static, StaticState
 from fem_reference.sheets import SHEETS
 from fem_reference.shell.laws import LAWS as SHELL_LAWS
 from fem_reference.solid.materials import LAWS as SOLID_LAWS
-from fem_reference.verification.rows import EXACT, Row, relatively
-from fem_reference.verification.specimens import moved
+from fem_reference.verification.rows import EXACT, Row, relative_row
+from fem_reference.verification.specimens import u_at
 from sheetbench.choices import STRAIN_LAWS
 from sheetbench.scenes import EdgeLoad, Held, Material, Scene, Sheet
 
@@ -57,9 +57,9 @@ def rows() -> Iterator[Row]:
         pull = stress(law, way, strain)
         force = pull * MATERIAL.young * SHEET.thickness
         scene = pulled((force, force if way == "both ways" else 0.0))
-        computed = moved(scene, SHEET.lengths, model, 2, law=law)[0] / SHEET.length_x
+        computed = u_at(scene, SHEET.lengths, model, 2, law=law)[0] / SHEET.length_x
         quantity = f"{law}, {way}: stretch at P/E = {pull:.6f}"
-        yield relatively(quantity, f"{model} 2", strain, EXACT, computed, TOLERANCE)
+        yield relative_row(quantity, f"{model} 2", strain, EXACT, computed, TOLERANCE)
 
 
 def rubbers() -> Iterator[Row]:
@@ -69,7 +69,7 @@ def rubbers() -> Iterator[Row]:
         quantity = f"{law}, {way}: P/E at a stretch of {100.0 * strain:g} %"
         computed = _held(model, material, stretches(law, way, strain, material)) / material.young
         expected = stress(law, way, strain, material)
-        yield relatively(quantity, f"{model} 1", expected, EXACT, computed, TO_ROUNDING)
+        yield relative_row(quantity, f"{model} 1", expected, EXACT, computed, TO_ROUNDING)
 
 
 def stress(law: str, way: str, strain: float, material: Material = MATERIAL) -> float:

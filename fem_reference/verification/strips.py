@@ -34,8 +34,8 @@ from typing import Any
 import numpy as np
 
 from fem_reference.motion.simulation import simulate
-from fem_reference.verification.rows import EXACT, Row, convergence, curve, relatively
-from fem_reference.verification.specimens import E1, E2, FIBRES, NU, G, moved, specimen
+from fem_reference.verification.rows import EXACT, Row, convergence, curve, relative_row
+from fem_reference.verification.specimens import E1, E2, FIBRES, NU, G, specimen, u_at
 from sheetbench.scenes import Clamped, EdgeLoad, Gravity, Material, Scene, Sheet
 
 ELEMENTS = 16
@@ -102,7 +102,7 @@ def settling() -> Iterator[Row]:
     mesh, source = f"shell {IN_MOTION[0]} × {IN_MOTION[1]}", "this project, rigid links"
     for component, largest in zip(("ux", "uz"), off, strict=True):
         quantity = f"{component} of the tip over 1.5 s, largest difference over the peak"
-        yield relatively(quantity, mesh, 0.0, source, largest, SETTLING, scale=1.0)
+        yield relative_row(quantity, mesh, 0.0, source, largest, SETTLING, scale=1.0)
 
 
 def off_axis() -> Iterator[Row]:
@@ -114,9 +114,9 @@ def off_axis() -> Iterator[Row]:
         c, s = cos(angle), sin(angle)
         exact = 1.0 / (c**4 / E1 + (1.0 / G - 2.0 * NU / E1) * s**2 * c**2 + s**4 / E2)
         scene = specimen(sheet, FIBRES.replace(angle=angle), (Clamped("x0"),), loads=(load,))
-        low, high = (moved(scene, (x, 0.02), model, (60, 4))[0] for x in (0.4, 0.7))
+        low, high = (u_at(scene, (x, 0.02), model, (60, 4))[0] for x in (0.4, 0.7))
         modulus = pull / sheet.thickness * 0.3 / (high - low)
-        yield relatively(f"E_x/E2 at {degrees}°", f"{model} 60 × 4", exact / E2, EXACT, modulus / E2, 5e-3)
+        yield relative_row(f"E_x/E2 at {degrees}°", f"{model} 60 × 4", exact / E2, EXACT, modulus / E2, 5e-3)
 
 
 def settling_scene() -> Scene:
@@ -162,4 +162,4 @@ def _tip(
     scene = specimen(sheet, material, (Clamped(edge="x0"),), weight, **more)
     # With ν = 0 there are no layers at the ends to grade towards.
     uniform: dict[str, Any] = {"grading": "uniform"} if model == "solid" else {}
-    return moved(scene, (sheet.length_x, 0.5 * sheet.length_y), model, (elements, 1), **uniform)
+    return u_at(scene, (sheet.length_x, 0.5 * sheet.length_y), model, (elements, 1), **uniform)

@@ -50,7 +50,7 @@ class RigidMotion:
         self._moved, rest = MovedEdge(motion, sheet), lattice.positions[self.masses]
         self._plan, self._height = rest[:, :2], rest[:, 2]
 
-    def driven(self, drive: Drive) -> np.ndarray:
+    def prescribed_displacement(self, drive: Drive) -> np.ndarray:
         """Return the displacement (m, 3) [m] of the masses."""
         return self._moved.displaced(self._plan, drive.load_factor, drive.time).lifted(self._height)
 

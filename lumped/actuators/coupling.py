@@ -103,14 +103,14 @@ class Coupling:
             u[chain.place] += chain.place_corner(end, self._positions[column, 2], u[column])
             u[chain.masses] = chain.binding @ u[chain.place]
 
-    def driven(self, drive: Drive) -> np.ndarray:
+    def prescribed_displacement(self, drive: Drive) -> np.ndarray:
         """Return the prescribed displacement (size, 3) [m] of the masses of moved edges."""
         u = np.zeros((self.size, 3))
         for motion in self._motions:
-            u[motion.masses] = motion.driven(drive)
+            u[motion.masses] = motion.prescribed_displacement(drive)
         return u
 
-    def driven_velocity(self, time: float) -> np.ndarray:
+    def prescribed_velocity(self, time: float) -> np.ndarray:
         """Return the prescribed velocity (size, 3) [m/s] of the masses of moved edges, from a time [s] on."""
         velocity = np.zeros((self.size, 3))
         for motion in self._motions:

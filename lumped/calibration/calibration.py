@@ -1,10 +1,8 @@
 """The result of a calibration: springs for a grid, and a report of the moduli that they meet."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -91,7 +89,7 @@ class Calibration(Answer):
         """The springs as arrays."""
         return Springs.read(self.springs)
 
-    def with_constant(self, name: str, value: float) -> Calibration:
+    def with_constant(self, name: str, value: float) -> Self:
         """Return the calibration with one spring constant changed, by its name
         (`lumped.spring_constants`)."""
         return replace(self, springs=self.constants.changed(name, value).table())

@@ -4,12 +4,10 @@ The springs of a cell among unequal cells are the springs of a grid of equal cel
 distance for all: the largest that any cell needs. The layers of a cell that needs less are then softer, and
 the mid-surface carries the rest of its membrane stiffness (`lumped.calibration.closed_form`)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -41,7 +39,7 @@ class GridCells:
     several: bool = False
 
     @classmethod
-    def stacked(cls, each: Sequence[GridCells], several: bool = False) -> GridCells:
+    def stacked(cls, each: Sequence[Self], several: bool = False) -> Self:
         """Return the cells of several grids row after row, alike but for sides and sections."""
 
         def joined(parts: Iterable[Any], names: Iterable[str]) -> dict[str, Any]:

@@ -204,7 +204,7 @@ def _anisotropic(form: np.ndarray) -> np.ndarray:
 
 
 def _split(layer: np.ndarray, ratios: np.ndarray, oblique: np.ndarray, anisotropic: np.ndarray) -> Split:
-    """Return, of layers (m, 3, 3), the share f of C66 in diagonals (m,), half of the share at which axial
+    """Return the share f of C66 of layers (m, 3, 3) in diagonals (m,), half of the share at which axial
     links vanish, the parts of C11 and C22 in axial links (m, 2), and whether cells need couplings (m,).
 
     Cells at an angle to the fibres (`oblique`) need them, and cells of an `anisotropic` sheet whose area

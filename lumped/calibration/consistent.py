@@ -26,7 +26,7 @@ from sheetbench.scenes.objects.grading import Graded
 def springs_of_sheets(
     sheets: Sequence[tuple[Sheet, Material]], grid: Grid, method: str = "consistent"
 ) -> list[Springs]:
-    """Return the springs of isotropic sheets of equal cells, each as by `consistent`, found together. Raises
+    """Return the springs of isotropic sheets of equal cells, each as by `consistent`, all at once. Raises
     NoClosedForm for a sheet without a closed form."""
     each = [each_cell(sheet, material, grid) for sheet, material in sheets]
     together = GridCells.stacked(each, several=True)

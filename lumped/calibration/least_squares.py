@@ -28,7 +28,7 @@ UNKNOWNS += ("diagonal", "cross_diagonal", "shear", "mid_shear", *FREE)
 
 
 def fit_moduli(grid_cells: GridCells, layer_distance: float | None = None) -> Springs:
-    """Return the springs of least weighted miss.
+    """Return the springs with the least weighted error of their moduli.
 
     Unknowns: the five link families, axial and cross each along x and y, the strain springs, all ≥ 0;
     area, mid_area of any sign; the layer distance unless given. kz as in the closed form.
@@ -63,7 +63,7 @@ def fit_moduli(grid_cells: GridCells, layer_distance: float | None = None) -> Sp
     high = np.select(kinds, [np.inf, np.inf], 2.0)
 
     def fitted(active: np.ndarray) -> np.ndarray:
-        """Return the unknowns of least weighted miss; unknowns that are not active stay 0."""
+        """Return the unknowns with the least weighted error; unknowns that are not active stay 0."""
 
         def of(values: np.ndarray) -> np.ndarray:
             unknowns = np.zeros_like(start)

@@ -1,10 +1,8 @@
 """The interface of a lattice's integrators."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
@@ -31,7 +29,7 @@ class LatticeSamples(NamedTuple):
     work: np.ndarray
 
     @classmethod
-    def of(cls, state: State, dissipated: float = 0.0, work: float = 0.0) -> LatticeSamples:
+    def of(cls, state: State, dissipated: float = 0.0, work: float = 0.0) -> Self:
         """Return one state, with the energies until then."""
         u, v, a = (np.ascontiguousarray(vector)[None] for vector in (state.u, state.v, state.a))
         return cls(np.array([state.time]), u, v, a, [state.memory], np.array([dissipated]), np.array([work]))

@@ -8,11 +8,10 @@ at the method's order, with
     w = 1/(1 + h γ/τ),   c = −w (y₀ + h Σ_j a_ij R_j/τ).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from copy import copy
 from itertools import pairwise
+from typing import Self
 
 import numpy as np
 
@@ -23,9 +22,9 @@ from sheetbench.scenes.objects.relaxation import BranchStep
 
 
 class Maxwell:
-    """The branches of all springs, in the step or stage `now`; with the instantaneous modulus before the
-    first. A state's memory holds the springs' measures one after the other. Immutable: `step` and `stage`
-    return new objects."""
+    """Maxwell branches of all springs in the step or stage `now`; before the first, springs of the
+    instantaneous modulus. A state's memory holds the springs' measures one after the other. Immutable: `step`
+    and `stage` return new objects."""
 
     def __init__(self, families: Sequence[Family], branches: Branches):
         if any(isinstance(family, DirectionalLinks) for family in families):
@@ -40,7 +39,7 @@ class Maxwell:
         count = len(self.times)
         self.now = branches.stepped(np.ones(count), np.zeros((count, 2, ends[-1])))
 
-    def _with_step(self, now: BranchStep) -> Maxwell:
+    def _with_step(self, now: BranchStep) -> Self:
         other = copy(self)
         other.now = now
         return other
@@ -54,11 +53,11 @@ class Maxwell:
         """Return the memory of relaxed branches at displacement u (n, 3) [m]."""
         return self.branches.at_rest(self._measures(u))
 
-    def step(self, memory: np.ndarray, ahead: float) -> Maxwell:
+    def step(self, memory: np.ndarray, ahead: float) -> Self:
         """Return the branches `ahead` [s] after a state with a given memory."""
         return self._with_step(self.branches.step(memory, ahead))
 
-    def stage(self, start: np.ndarray, relaxed: np.ndarray, h_gamma: float) -> Maxwell:
+    def stage(self, start: np.ndarray, relaxed: np.ndarray, h_gamma: float) -> Self:
         """Return the branches of a stage. start: the step's memory; relaxed: h Σ_j a_ij R_j (b, 2, m);
         h_gamma: h γ [s]."""
         weight = 1.0 / (1.0 + h_gamma / self.times)

@@ -21,7 +21,7 @@ class PrescribedMotion:
     def __init__(self, scene: Scene, problem: Problem):
         self._coupling = problem.assembly.coupling
         # integrators need g at two times several times a step
-        self.place, self.rate = lru_cache(16)(self._place), lru_cache(16)(self._rate)
+        self.place, self.rate = lru_cache(16)(self._displacement), lru_cache(16)(self._velocity)
         self.by_supports = _by_supports(scene, problem)
         self.moving = bool(self.by_supports or (self._coupling is not None and self._coupling.moved.any()))
         self._still = problem.constraints.turned(1.0)
@@ -41,20 +41,20 @@ class PrescribedMotion:
             g[moved, axis] = value(course)[axis]
         return g
 
-    def _place(self, time: float) -> np.ndarray:
+    def _displacement(self, time: float) -> np.ndarray:
         """Return g(t), (size, 3) [m]; not to be written to."""
         if not self.moving:
             return self._still
         g = self._still + self._of_supports(lambda course: course.at(time))
-        return g if self._coupling is None else g + self._coupling.driven(Drive(1.0, time))
+        return g if self._coupling is None else g + self._coupling.prescribed_displacement(Drive(1.0, time))
 
-    def _rate(self, time: float, before: bool = False) -> np.ndarray:
+    def _velocity(self, time: float, before: bool = False) -> np.ndarray:
         """Return the velocity of g just after a time, or just before, (size, 3) [m/s]; not to be written
         to."""
         g = self._of_supports(lambda course: course.slope(time, before))
         if self._coupling is None or not self.moving:
             return g
-        return g + self._coupling.driven_velocity(time)
+        return g + self._coupling.prescribed_velocity(time)
 
     def support_acceleration(self, time: float) -> np.ndarray:
         """Return the acceleration of g by supports just after a time, (size, 3) [m/s²]."""

@@ -7,24 +7,23 @@ T and g come from supports and bindings, with Tᵀ M g = const: whole columns mo
 M is diagonal on the lattice and constant throughout. Units: m, s, N, kg, J.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from lumped.actuators import Drive
-from lumped.carried import pairs_of, rotary_masses
 from lumped.dynamics.damping import Damping, MovingForces, add_forces
 from lumped.dynamics.maxwell import Maxwell
 from lumped.dynamics.prescribed_motion import PrescribedMotion
 from lumped.items import Deformed
 from lumped.masses import masses
+from lumped.payloads import pairs_of, rotary_masses
 from lumped.springs.packing import pack, scratch
 from lumped.statics.problem import Problem
 from sheetbench.numerics.options import typed
@@ -118,7 +117,7 @@ class System:
         self.prescribed = PrescribedMotion(scene, problem)
 
     @property
-    def working(self) -> bool:
+    def nonconservative(self) -> bool:
         """Return whether there is no potential: loads follow the sheet or change over time, or a natural
         state changes."""
         return not self.problem.loads.potential or self.growing is not None
@@ -181,7 +180,7 @@ class System:
         """Return the loads that do not follow the sheet at times [s], (k, n, 3) [N], (1, n, 3) if
         constant."""
         loads = self.problem.loads
-        return np.array([loads.dead_at(time) for time in (times if self.working else times[:1])])
+        return np.array([loads.dead_at(time) for time in (times if self.nonconservative else times[:1])])
 
     def external(self, u: np.ndarray, time: float) -> np.ndarray:
         """Return the external force (size, 3) [N]."""
@@ -245,13 +244,13 @@ class System:
             item.add_resistance_tangent((u, self.drive(time)), v, damping, blocks)
         return blocks
 
-    def for_step(self, state: State, ahead: float = 0.0) -> System:
+    def for_step(self, state: State, ahead: float = 0.0) -> Self:
         """Return the equations with the branches of a step of second order, `ahead` [s] after a state."""
         if self.maxwell is None or state.memory is None:
             return self
         return self.with_branches(self.maxwell.step(state.memory, ahead))
 
-    def with_branches(self, maxwell: Maxwell) -> System:
+    def with_branches(self, maxwell: Maxwell) -> Self:
         """Return the equations with the branches in a step or stage."""
         other = copy(self)
         other.maxwell = maxwell

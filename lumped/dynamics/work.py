@@ -15,7 +15,7 @@ def work(system: System, before: State, after: State) -> float:
     if motion.moving:
         moved = motion.place(after.time) - motion.place(before.time)
         done += 0.5 * float(np.sum((system.exerted(before) + system.exerted(after)) * moved))
-    if system.working:
+    if system.nonconservative:
         mean = 0.5 * (system.external(before.u, before.time) + system.external(after.u, after.time))
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
     then, now = system.drive(before.time), system.drive(after.time)

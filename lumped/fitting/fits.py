@@ -58,7 +58,7 @@ class StaticTarget:
     displacement: np.ndarray
 
     def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Return the springs' relative misses (m,), and their derivatives (m,) by each constant."""
+        """Return the relative residuals (m,) of springs, and their derivatives (m,) by each constant."""
         scale = np.abs(self.displacement).max() * np.sqrt(len(self.points))
         displacement, slopes = Differentiable(self.scene, springs).at_points(self.points, names)
         slopes = {name: (slope / scale).ravel() for name, slope in slopes.items()}
@@ -83,7 +83,7 @@ class ModalTarget:
     frequencies: np.ndarray
 
     def compare(self, springs: Calibration, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Return the springs' relative misses (n,), and their derivatives (n,) by each constant."""
+        """Return the relative residuals (n,) of springs, and their derivatives (n,) by each constant."""
         frequencies, rates = frequency_slopes(self.scene, springs, names, len(self.frequencies))
         slopes = {name: rates[name] / self.frequencies for name in names}
         return frequencies / self.frequencies - 1.0, slopes
@@ -165,7 +165,7 @@ def fitted(
 
     @lru_cache(maxsize=1)
     def at(change: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
-        """Return the relative misses, and their derivatives by the changes."""
+        """Return the relative residuals, and their derivatives by the changes."""
         calibration = changed(change)
         misses, rates = zip(*(target.compare(calibration, names) for target in targets), strict=True)
         slopes = []

@@ -5,8 +5,6 @@ forces (`lumped.springs.cells`) is computed in the diagonals first: (4, 9) of (d
 (d2, d2), each a 3×3 matrix by rows. A corner's part is one of the four matrices, with a sign.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.springs.laws import Four, Three, Vector, less, plus, times

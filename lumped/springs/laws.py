@@ -32,8 +32,6 @@ springs of its small strains, which define M; k₄ to k₉: c₁₀, c₀₁, c�
 Gent's limit; k₁₀, k₁₁ [N/m]; k₁₂ [N/m³].
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

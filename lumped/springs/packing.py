@@ -7,8 +7,6 @@ grid's, share their rest data, which stay in the fastest memory. A run continues
 next over springs without stiffness.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import pairwise, zip_longest

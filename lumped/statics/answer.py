@@ -1,7 +1,5 @@
 """The `Solution` of a static solve, from the end of its path."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any

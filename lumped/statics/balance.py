@@ -5,8 +5,6 @@ cancel, and so do their moments: the sums are the residual of the free unknowns 
 forces. Springs of unequal stiffness along x, y and z are neither, and keep no moments.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Linear buckling of a lattice (`sheetbench.numerics.continuation.buckling`)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.calibration import Calibration, default

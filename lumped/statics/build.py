@@ -1,7 +1,5 @@
 """Construction of a scene's lattice under its supports and loads."""
 
-from __future__ import annotations
-
 from functools import partial
 
 from lumped.actuators import Coupling
@@ -10,7 +8,7 @@ from lumped.calibration import Calibration
 from lumped.contact import Contact
 from lumped.lattice import Weights
 from lumped.loads import Loads
-from lumped.pretension import stretched
+from lumped.pretension import with_pretension_strain
 from lumped.sections import require_alike
 from lumped.statics.problem import Problem
 from lumped.supports import constrain
@@ -70,7 +68,7 @@ def build_problem(
         plan = None if previous is None else previous.assembly.lattice
         assembly = Assembly(scene.sheet, calibration, weights, couple, scene.twisting_edges(), plan)
         x, y = (line.at for line in assembly.lattice.lines)
-        if (state := natural_of_cells(stretched(scene, assembly), x, y)) is not None:
+        if (state := natural_of_cells(with_pretension_strain(scene, assembly), x, y)) is not None:
             assembly.grow(state)
     if previous is not None and "supports" in alike and assembly.coupling is previous.assembly.coupling:
         constraints = previous.constraints.on(assembly.lattice)

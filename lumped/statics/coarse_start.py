@@ -8,8 +8,6 @@ corrections fail or lead to an unstable equilibrium, the whole path is traced as
 smaller lattices have `consistent` springs, whose answers hardly depend on the grid; so must the large one.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

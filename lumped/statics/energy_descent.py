@@ -10,8 +10,6 @@ nothing beside the energy that the descent has released. Only for dead loads and
 no energy.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
@@ -41,7 +39,7 @@ def descend(path: LatticePath, load_factor: float) -> LatticeState:
         if load_factor != path.load_factor and not factor.negative:
             return state
         for share in DISTURBANCES:  # a saddle is e.g. a flat sheet that has buckled
-            u = _disturbed(problem, state, factor, share)
+            u = _perturbed(problem, state, factor, share)
             minimum = _minimise(path, problem, problem.project_to_supports(u, load_factor), load_factor)
             if not problem.assembly.natural or not path.factored(path.tangent(minimum, load_factor)).negative:
                 break
@@ -89,7 +87,7 @@ def _failed(reason: str) -> LoadStepFailed:
     return LoadStepFailed(Status.STEP_LIMIT, reason, 0.0)
 
 
-def _disturbed(problem: Problem, state: LatticeState, factor: Factor, share: float) -> np.ndarray:
+def _perturbed(problem: Problem, state: LatticeState, factor: Factor, share: float) -> np.ndarray:
     """Return the displacement of an unstable equilibrium moved along a direction of negative curvature.
 
     The move is the given share of the layer distance, with the sign of lower energy (if equal the first).

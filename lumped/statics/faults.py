@@ -4,8 +4,6 @@ collapsed  a link shorter than 1e-6 of its rest length: its direction is undefin
 inverted   the normal of a mid-surface cell points from the top layer to the bottom.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from lumped.assembly import Assembly

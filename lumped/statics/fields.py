@@ -5,8 +5,6 @@ one value per link and per quad: tension [N] of the links (0 on quads), strain [
 number of the links (−1 on quads), elastic_energy [J] of the link or of the quad's area and strain springs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

@@ -7,8 +7,6 @@ compiled call takes a step and computes the internal forces and the extrapolated
 state contains its residual. Displacements and forces are (n, 3) [m], [N].
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import NamedTuple
@@ -155,7 +153,7 @@ class Problem(Structure[LatticeState, Residual]):
     def _prescribed(self, load_factor: float) -> np.ndarray:
         g = self.constraints.prescribed(load_factor)
         if self.assembly.coupling is not None:
-            g = g + self.assembly.coupling.driven(Drive(load_factor))
+            g = g + self.assembly.coupling.prescribed_displacement(Drive(load_factor))
         return g
 
     def project_to_supports(self, u: np.ndarray, load_factor: float) -> np.ndarray:

@@ -1,7 +1,5 @@
 """Static solutions of a scene on a lattice of calibrated springs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache, partial
 from typing import Literal
@@ -230,14 +228,14 @@ def classify(problem: Problem, path: LatticePath) -> None:
         return
     survey = problem.survey(state.u, state.load_factor)
     path.state = state._replace(energies=survey.energies)
-    rounded = validity.digits(problem, state, path.factor)
+    rounded = validity.lost_digits(problem, state, path.factor)
     outside = outside_model(scene, survey.strain, STRETCH)
     if outside and not problem.assembly.any_strain:
         path.status = Status.STRAIN_OUTSIDE_MODEL
         notes.insert(0, outside)
     elif rounded is not None and path.status is Status.CONVERGED:
         path.status = rounded.status
-    cautions = [validity.layers(problem, state, survey), rounded.message if rounded is not None else ""]
+    cautions = [validity.thin_layers(problem, state, survey), rounded.message if rounded is not None else ""]
     cautions.append(
         validity.slender_cells(problem.assembly.lattice) if path.status is Status.UNSTABLE else ""
     )

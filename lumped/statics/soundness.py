@@ -115,7 +115,7 @@ def sharpest_bend(
 
 
 @njit
-def carried_by_links(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+def link_force_sums(u: np.ndarray, nodes: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """Return k |Δu| of the links at every mass, summed, (k, 1) [N]."""
     carried = zeros(len(u))
     for m in range(len(nodes)):

@@ -19,8 +19,6 @@ slender    masses of cells many times as long as wide, as strong grading makes t
 Each is reported with the place on the sheet where it is worst and a change that helps.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 
@@ -31,7 +29,7 @@ from lumped.lattice import Lattice
 from lumped.springs.all_families import Survey
 from lumped.statics.faults import place
 from lumped.statics.problem import LatticeState, Problem
-from lumped.statics.soundness import carried_by_links, sharpest_bend
+from lumped.statics.soundness import link_force_sums, sharpest_bend
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.cache import frozen
 from sheetbench.numerics.continuation.path import Fault
@@ -48,7 +46,7 @@ RESOLVED = 2.0  # cells' length over the width of a layer
 FREE_OF_STRETCH = 0.025  # share of energy in the layers' mean stretch below which there is nothing to resolve
 
 
-def digits(problem: Problem, state: LatticeState, factor: Factor | None) -> Fault | None:
+def lost_digits(problem: Problem, state: LatticeState, factor: Factor | None) -> Fault | None:
     """Return a fault with the displacement by rounding of the internal force if its estimate exceeds
     DOUBTFUL; its status is `singular` if the remaining unbalanced force displaces the equilibrium by more
     than LOST."""
@@ -56,7 +54,7 @@ def digits(problem: Problem, state: LatticeState, factor: Factor | None) -> Faul
     if factor is None or largest == 0.0:
         return None
     links, share = problem.assembly.links, 0.0
-    carried = carried_by_links(state.u, links.nodes, links.stiffness)
+    carried = link_force_sums(state.u, links.nodes, links.stiffness)
     for sample in _noise(state.u.shape):
         moved = problem.expand(factor.solve_unrefined(problem.reduce(carried * sample)))
         share = max(share, problem.assembly.rounding * float(np.abs(moved).max()) / largest)
@@ -79,7 +77,7 @@ def _noise(shape: tuple[int, ...]) -> np.ndarray:
     return frozen(np.random.default_rng(0).standard_normal((SAMPLES, *shape)))
 
 
-def layers(problem: Problem, state: LatticeState, survey: Survey) -> str:
+def thin_layers(problem: Problem, state: LatticeState, survey: Survey) -> str:
     """Return a sentence if the sheet's stretching lies in layers thinner than the grid's cells, else "";
     survey: of the springs at a state."""
     assembly, u, scene = problem.assembly.at(state.load_factor), state.u, problem.scene

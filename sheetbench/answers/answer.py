@@ -119,4 +119,4 @@ class Answer(ABC):
         return str(notebook.bundle(self.report())["text/html"])
 
     def _repr_png_(self) -> bytes | None:
-        return notebook.drawn(self.report().pictures)
+        return notebook.first_png(self.report().pictures)

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes.meaning.composition import carried, mass_of
+from sheetbench.scenes.meaning.composition import mass_of, payload_mass
 from sheetbench.scenes.meaning.region import edge_length, resultant
 from sheetbench.scenes.objects.actuators import Chain
 from sheetbench.scenes.objects.loads import Pressure
@@ -78,7 +78,7 @@ def dead_force(
     sides = {name: edge_length(scene, name) for name in EDGES if name in named} | (lengths or {})
     total = np.zeros(3)
     if scene.gravity is not None:
-        mass = carried(scene) + (mass_of(scene) if mass is None else mass)
+        mass = payload_mass(scene) + (mass_of(scene) if mass is None else mass)
         mass += sum(c.line_density * sides[c.edge] for c in scene.actuators if isinstance(c, Chain))
         total += mass * np.array(scene.gravity.last_acceleration)
     for load in scene.loads:

@@ -1,9 +1,7 @@
 """Contact with an obstacle in an answer."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -27,7 +25,7 @@ class ContactState:
     undecided: int
 
     @classmethod
-    def of(cls, depth: np.ndarray, area: np.ndarray, load: np.ndarray) -> ContactState:
+    def of(cls, depth: np.ndarray, area: np.ndarray, load: np.ndarray) -> Self:
         """Return the contact of points or parts of cells. depth: over the thickness, with δ₀, < 0 without
         contact. area: of each in contact [m²]; load: on them [N]."""
         over, touching = depth - TOUCH, depth > 0.0

@@ -35,7 +35,7 @@ class Block:
 
 
 @dataclass(frozen=True)
-class _Strip:
+class _TextColumn:
     """A column with its name, unit and cells as text."""
 
     column: Column
@@ -69,7 +69,7 @@ def blocks(table: Table, width: int | None) -> list[Block]:
     for i, column in enumerate(table.columns):
         if not column.detail:
             name, unit = map(terminal, column.heading(shown=True))
-            strips.append(_Strip(column, name, unit, [row[i] for row in shown]))
+            strips.append(_TextColumn(column, name, unit, [row[i] for row in shown]))
     rows = [*zip(*(strip.cells for strip in strips), strict=True)]
     if table.grouped and _fits(strips, width):
         firsts = strips[0].cells
@@ -90,19 +90,19 @@ def text(table: Table, most: int | None = None) -> str:
     return "\n".join([terminal(table.caption), *lines[: -1 if more else None], *more])
 
 
-def _fits(strips: list[_Strip], width: int | None, whole: bool = False) -> bool:
+def _fits(strips: list[_TextColumn], width: int | None, whole: bool = False) -> bool:
     """Return whether the columns fit side by side; whole: with their names in one line."""
     widths = (strip.wide if whole else strip.narrow for strip in strips)
     return width is None or sum(widths) + GAP * (len(strips) - 1) <= width
 
 
-def _split(strips: list[_Strip], naming: int, width: int | None) -> list[list[_Strip]]:
+def _split(strips: list[_TextColumn], naming: int, width: int | None) -> list[list[_TextColumn]]:
     """Return the columns in as few blocks as the width allows, each with the first `naming` columns."""
     if _fits(strips, width):
         return [strips]
     while naming > 1 and not _fits(strips[:naming], 2 * (width or 0) // 3):
         naming -= 1
-    keys, parts = strips[:naming], list[list[_Strip]]()
+    keys, parts = strips[:naming], list[list[_TextColumn]]()
     for strip in strips[naming:]:
         if parts and _fits([*parts[-1], strip], width):
             parts[-1].append(strip)
@@ -111,7 +111,7 @@ def _split(strips: list[_Strip], naming: int, width: int | None) -> list[list[_S
     return parts or [keys]
 
 
-def _block(strips: list[_Strip], width: int | None) -> Block:
+def _block(strips: list[_TextColumn], width: int | None) -> Block:
     fits, whole_names = _fits(strips, width), _fits(strips, width, whole=True)
     layout = Layout(box=BOX, show_edge=False, pad_edge=False, padding=(0, GAP - 1, 0, 0))
     for strip in strips:

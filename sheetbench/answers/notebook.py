@@ -33,7 +33,7 @@ def png(figure: Figure) -> bytes:
     return written.getvalue()
 
 
-def drawn(pictures: tuple[Picture, ...]) -> bytes | None:
+def first_png(pictures: tuple[Picture, ...]) -> bytes | None:
     """Return the first figure of the pictures as PNG, or None if there is none or it cannot be drawn."""
     return next((picture._repr_png_() for picture in pictures if not picture.moves), None)
 
@@ -67,6 +67,6 @@ def report_html(report: Report, picture: bytes | None) -> str:
 
 def bundle(report: Report) -> dict[str, Any]:
     """Return a report by the kinds of content that a notebook takes."""
-    picture = drawn(report.pictures)
+    picture = first_png(report.pictures)
     content: dict[str, Any] = {"text/html": report_html(report, picture)}
     return content if picture is None else {**content, "image/png": picture}

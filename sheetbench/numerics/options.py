@@ -30,7 +30,7 @@ _TYPES: dict[Any, Any] = {}
 
 
 class TypedTuple(tuple[Any, ...]):
-    """Tuple that compiled functions take as the named tuple it was made of; Python has no names in it."""
+    """Tuple without names in Python that compiled functions take as the named tuple of its values."""
 
     _numba_type_: Any
 

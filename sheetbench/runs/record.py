@@ -38,7 +38,7 @@ class Recipe(Generic[AnyState]):
     rows: int
 
 
-class Keeping(TypedDict, total=False):
+class StorageOptions(TypedDict, total=False):
     """Storage of a motion: keywords of both solvers' `simulate`.
 
     store: a folder for samples; a stopped run resumes from it. frames: number of whole displacements kept,
@@ -53,10 +53,10 @@ class Keeping(TypedDict, total=False):
     progress: Callable[[float], None] | None
 
 
-def parted(options: dict[str, Any]) -> tuple[Keeping, dict[str, Any]]:
-    """Split options into the keywords of `Keeping` and the others."""
-    keeping = {name: options[name] for name in Keeping.__annotations__ if name in options}
-    return cast(Keeping, keeping), {name: of for name, of in options.items() if name not in keeping}
+def split_options(options: dict[str, Any]) -> tuple[StorageOptions, dict[str, Any]]:
+    """Split options into the keywords of `StorageOptions` and the others."""
+    keeping = {name: options[name] for name in StorageOptions.__annotations__ if name in options}
+    return cast(StorageOptions, keeping), {name: of for name, of in options.items() if name not in keeping}
 
 
 def columns_of(scene: Scene, reactions: Iterable[str], wrenches: Mapping[str, np.ndarray]) -> list[Part]:
@@ -84,7 +84,7 @@ def split(columns: Sequence[Part], rows: np.ndarray) -> dict[str, dict[str, np.n
     return parts
 
 
-def record(recipe: Recipe[AnyState], keeping: Keeping, began: float) -> History:
+def record(recipe: Recipe[AnyState], keeping: StorageOptions, began: float) -> History:
     """Run a motion, in memory or in a folder, from the folder's last checkpoint.
 
     began: the clock's time at the start of the set-up [s]. Raises BadInput for a folder with another run or a

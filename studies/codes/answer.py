@@ -1,7 +1,5 @@
 """Answer of the study: codes with numbers in use and with ours, the front of error and cost, every row."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from statistics import geometric_mean

@@ -8,7 +8,7 @@ from comparisons.cli import console
 from comparisons.cli.options import Kind, Models
 from comparisons.cli.output import PictureOptions
 from studies.codes.answer import codes
-from studies.codes.models import LADDERS, climb, stand
+from studies.codes.models import SIZES, measure_models, measure_sizes
 from studies.codes.trials import run_trials
 
 
@@ -16,7 +16,7 @@ def command(
     code: list[str] | None = None,
     seconds: float = 60.0,
     budget: float = 1e9,
-    ladder: Annotated[list[str] | None, Kind(choices=tuple(LADDERS))] = None,
+    ladder: Annotated[list[str] | None, Kind(choices=tuple(SIZES))] = None,
     standing: bool = False,
     model: Models = None,
     suite: Annotated[str, Kind(choices=("statics", "curves"))] = "statics",
@@ -31,7 +31,7 @@ def command(
         code (CODE=PYTHON, argument): newton=.venv-newton/bin/python; none: the stored rows.
         seconds: Limit of a run, of processor time.
         budget: Seconds after which no further run of a code begins.
-        ladder (NAMES): Measure sizes of {LADDERS} on test 1.
+        ladder (NAMES): Measure sizes of {SIZES} on test 1.
         standing: Measure models on a suite, into the reference set's file.
         model (MODELS): Models of --standing: as mujoco:grid=9.
         suite (SUITE): Suite of --standing: statics or curves."""
@@ -40,7 +40,7 @@ def command(
             name, _, python = text.partition("=")
             run_trials(name, python, seconds, budget, console.tell)
         for name in ladder or ():
-            climb(name, console.tell)
+            measure_sizes(name, console.tell)
         if standing or model:
-            stand(model or (), console.tell, suite)
+            measure_models(model or (), console.tell, suite)
         return out.show(codes())

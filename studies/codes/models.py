@@ -5,8 +5,6 @@ are kept in the set's own file, for `score` to compare answers with. The rows of
 installed stay.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -22,7 +20,7 @@ from studies.codes.results import CASES, SCENES, Trial, write_results
 REPEATS = 3
 
 
-class Ladder(NamedTuple):
+class Sizes(NamedTuple):
     """A program's models by size."""
 
     title: str
@@ -30,17 +28,17 @@ class Ladder(NamedTuple):
     models: tuple[Spec, ...]
 
 
-LADDERS = {
-    "lattice": Ladder("sheetbench, lattice", "MIT", tuple(Lattice(n) for n in (3, 5, 9, 17, 33))),
-    "oblique": Ladder(
+SIZES = {
+    "lattice": Sizes("sheetbench, lattice", "MIT", tuple(Lattice(n) for n in (3, 5, 9, 17, 33))),
+    "oblique": Sizes(
         "sheetbench, lattice with oblique shear",
         "MIT",
         tuple(Lattice(n, "consistent-oblique") for n in (5, 9, 17)),
     ),
-    "shell": Ladder("sheetbench, shell", "MIT", tuple(Elements("shell", n) for n in (4, 8, 12, 16))),
-    "solid": Ladder("sheetbench, solid", "MIT", tuple(Elements("solid", n) for n in (4, 8))),
+    "shell": Sizes("sheetbench, shell", "MIT", tuple(Elements("shell", n) for n in (4, 8, 12, 16))),
+    "solid": Sizes("sheetbench, solid", "MIT", tuple(Elements("solid", n) for n in (4, 8))),
     **{
-        code: Ladder(title, licence, tuple(External(code, {"elements": n}) for n in sizes))
+        code: Sizes(title, licence, tuple(External(code, {"elements": n}) for n in sizes))
         for code, title, licence, sizes in (
             ("kratos", "Kratos, thin shell", "BSD-4-Clause", (8, 16, 32)),
             ("calculix", "CalculiX, 20-node bricks", "GPL-2.0", (4, 6, 8, 12)),
@@ -77,21 +75,21 @@ def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     }
 
 
-def climb(code: str, say: Callable[[str], None]) -> None:
-    """Measure a ladder of sizes on test 1, and write its file of results."""
-    ladder, rows = LADDERS[code], []
-    for candidate in ladder.models:
+def measure_sizes(code: str, say: Callable[[str], None]) -> None:
+    """Measure a program's models by size on test 1, and write its file of results."""
+    sizes, rows = SIZES[code], []
+    for candidate in sizes.models:
         size = next(value for key, value in candidate.settings.items() if key in ("grid", "elements"))
         recipe = f"{size} × {size}" if isinstance(size, int) else " × ".join(map(str, size[:2]))
         result = row(CASES[SCENES[0]], candidate)
-        say(f"{ladder.title}, {recipe}: {result['status']}, {result['error']}")
+        say(f"{sizes.title}, {recipe}: {result['status']}, {result['error']}")
         rows.append(
             Trial(SCENES[0], recipe, candidate.model, *(result[k] for k in ("status", "error", "seconds")))
         )
-    write_results(code, ladder.title, ladder.licence, rows, f"--ladder {code}")
+    write_results(code, sizes.title, sizes.licence, rows, f"--ladder {code}")
 
 
-def stand(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:
+def measure_models(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:
     """Measure models by name on a suite, and put the rows into the set's file; rows of other suites stay.
     Raises BadInput for an unknown model."""
     candidates = {str(candidate): candidate for candidate in (*STANDING, *SLOW)}

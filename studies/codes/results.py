@@ -3,8 +3,6 @@
 A row is a scene by a recipe (numbers and a mesh). Files come with pull requests too, so they are checked.
 """
 
-from __future__ import annotations
-
 import json
 import platform
 from collections.abc import Iterable

@@ -5,8 +5,6 @@ Python that has it, and writes results/codes/CODE.json. A run that crashes or ta
 only.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable, Mapping

@@ -10,8 +10,6 @@ bend-twist    clamped with its plane turned by 45° about its length, by Γ (ν 
 Lengths, density and weight are fixed, and Young's modulus makes the number.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import cos, pi, sin
 

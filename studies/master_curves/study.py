@@ -11,8 +11,6 @@ load. A leaning strip leaves its plane earlier, and its tip's way aside is a cur
 strip: Kirchhoff's rod (`studies.master_curves.twist`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any

@@ -10,8 +10,6 @@ integrated from the tip, whose turn follows from the condition at the clamp. Wit
 elastica; turned by π/2 it buckles at Timoshenko's load.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import root

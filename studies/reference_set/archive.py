@@ -4,8 +4,6 @@ Scenes, values with bars, forms, the whole set as JSON, licence, a README and ch
 equal bytes: names in order, one date, one mode, no compression, which depends on zlib's version.
 """
 
-from __future__ import annotations
-
 import sys
 from hashlib import sha256
 from pathlib import Path

@@ -12,8 +12,6 @@ The file has the scenes: a new case is a row of name, suite, why and scene, for 
 Errors of models on the set are another study (`studies.codes.models`); their rows stay unchanged.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter

@@ -11,8 +11,6 @@ sheet, which exchanges x and y, P2 and P3: a uy with another sign than the mirro
 left out.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import sqrt
 

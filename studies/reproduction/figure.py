@@ -1,7 +1,5 @@
 """The figure of a reproduced test: published and computed displacements."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.figure import Figure
 

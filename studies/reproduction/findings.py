@@ -6,8 +6,6 @@ parameter and searches in more and more parameters. The fits are stored results,
 names the commit with the searches.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

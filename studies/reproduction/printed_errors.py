@@ -6,8 +6,6 @@ Magnitudes are compared, because one printed sign is a misprint; the error is 0 
 matches a normalisation if all its digits agree, rounded or cut off.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import floor
 from typing import Annotated, Any

@@ -4,8 +4,6 @@ Source: Habibi, Yang, Godage, Kang, Walker, Branson: a lumped-mass model for lar
 surfaces. See data/README.md.
 """
 
-from __future__ import annotations
-
 import csv
 from functools import cache
 from importlib import resources

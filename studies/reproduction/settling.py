@@ -6,8 +6,6 @@ Two lattices are run: `consistent` springs, and the published k with √(D/k) be
 and full springs along edges, as published.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Literal
 

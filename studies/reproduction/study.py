@@ -6,8 +6,6 @@ settling  the simulation from rest and its time
 nearest   the sheets nearest to the published tables, and values of the tables that no sheet reproduces
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import partial

@@ -1,7 +1,5 @@
 """Answer of the study: tables of constants, of linear lattices and of the block, and their pictures."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path

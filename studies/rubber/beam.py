@@ -6,8 +6,6 @@ has its frequency, damping ratio and drop. The shell (2 × 1 elements) has E and
 lightest load, or by `identify` from the first PERIODS of each run; the load is a rigid rod on the tip's edge.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path

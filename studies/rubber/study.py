@@ -10,8 +10,6 @@ compared with the material's own law
 Errors are of the end's displacement, of the top's where it is blown up.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

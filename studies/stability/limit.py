@@ -4,8 +4,6 @@ The energy of 600 steps, from a random displacement of 1e-6 of the layer distanc
 loads, must not grow tenfold; bisected to 1e-3.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

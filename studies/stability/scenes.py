@@ -6,8 +6,6 @@ L = ρ g h a³/D (Wüst 1954, Seffen and Pellegrino 1999): κ > 0 lifts the ends
 along −z.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -23,7 +23,7 @@ from comparisons.models.spec import Elements, Lattice
 from comparisons.stability import tiles
 from comparisons.stability.answer import Stability, limits, summary
 from comparisons.stability.extremes import scaled, stability
-from comparisons.stability.rows import Row, broken, percent
+from comparisons.stability.rows import Row, fault_sentences, percent
 from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
 from comparisons.sweep.store import Store
@@ -189,7 +189,7 @@ class StabilityMaps(Answer):
     def complaints(self) -> list[str]:
         return [
             *(complaint for scene_map in self.maps for complaint in scene_map.complaints()),
-            *broken(self.rows),
+            *fault_sentences(self.rows),
         ]
 
     @property

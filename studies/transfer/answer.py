@@ -1,7 +1,5 @@
 """Answer of the transfer study: its rows by part, and their tables, methods across and scenes down."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any
@@ -32,7 +30,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Long:
+class Ratio:
     """Grid whose cells are longer than wide."""
 
     scene: str
@@ -42,7 +40,7 @@ class Long:
 
 
 @dataclass(frozen=True)
-class Graded:
+class GradedScene:
     """Grading of a scene's lattices, and its reason."""
 
     scene: str
@@ -126,13 +124,13 @@ class Transfer(Answer):
 
     def _gradings(self) -> Table:
         """Return a row per scene, of a method with a grading where one has it."""
-        rows: dict[str, Graded] = {}
+        rows: dict[str, GradedScene] = {}
         for row in self.static:
             if any(row["gradings"]) or row["scene"] not in rows:
                 gradings = ", ".join(f"{g:g}" if isinstance(g, float) else g for g in row["gradings"])
-                rows[row["scene"]] = Graded(row["scene"], gradings, "; ".join(row["reasons"]))
+                rows[row["scene"]] = GradedScene(row["scene"], gradings, "; ".join(row["reasons"]))
         grids = ", ".join(map(str, self.grids))
-        return Table.of(Graded, rows.values(), f"Grading at {grids} masses a side", "gradings")
+        return Table.of(GradedScene, rows.values(), f"Grading at {grids} masses a side", "gradings")
 
     def _limits(self) -> Table:
         lines = [
@@ -160,10 +158,10 @@ class Transfer(Answer):
 
     def _aspect(self) -> Table:
         rows = (
-            Long(row["scene"], f"{row['grid'][0]} × {row['grid'][1]} × 2", row["aspect"], row["error"])
+            Ratio(row["scene"], f"{row['grid'][0]} × {row['grid'][1]} × 2", row["aspect"], row["error"])
             for row in self.aspect
         )
-        return Table.of(Long, rows, "Cells longer than wide, calibrated by `moduli`", "aspect", grouped=True)
+        return Table.of(Ratio, rows, "Cells longer than wide, calibrated by `moduli`", "aspect", grouped=True)
 
     def _left_out(self) -> Table:
         lines = []

@@ -9,12 +9,10 @@ a (1 − ν)/(3 + ν), a = 0.65 at ν = 0.45 (Williams, J. Appl. Mech. 19 (1952)
 deflections come nearer with order 2a = 1.3 in the end, of every model whose cells do not shrink towards it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 import numpy as np
 
@@ -57,7 +55,7 @@ class Drawn:
     missed: str
 
     @classmethod
-    def of(cls, scene: str, errors: dict[str, float | None], bar: float) -> Drawn:
+    def of(cls, scene: str, errors: dict[str, float | None], bar: float) -> Self:
         """Return the row of a result of `measure`; missed: the requirement that fails, "" if none does."""
         numbers = {int(n): np.inf if value is None else value for n, value in errors.items()}
         steps = [*pairwise(numbers), (min(numbers), max(numbers))]

@@ -1,7 +1,5 @@
 """Scenes of the study of drawn sheets: five of the catalogue, and ten of soft sheets that bend far."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from sheetbench.scenes import Scene, load

@@ -4,8 +4,6 @@ All are Habibi et al.'s sheet or a change of it. The linear pair is the training
 its weight: there a calibration's wrong limit is one of bending alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

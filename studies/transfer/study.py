@@ -13,8 +13,6 @@ a lattice that is not calibrated for its grid is another plate on every grid. A 
 moduli on a grid is compared with the error on that grid; 33 masses a side may be far from cells → 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Any, Unpack
 
@@ -231,19 +229,19 @@ class _Study:
         if training:
             more["training"] = [self.texts[other] for other in training]
         label = f"{method} {grid[0]}×{grid[1]} {task}"
-        return self._ask(task, name, label, method=method, grid=[*grid, 2], **more)
+        return self._result_of(task, name, label, method=method, grid=[*grid, 2], **more)
 
     def _reference(self, name: str, task: str = "") -> np.ndarray | None:
         if not task:
             return self._field(name, Elements("shell", self.elements))
-        return self._ask(task, name, task, elements=self.elements)
+        return self._result_of(task, name, task, elements=self.elements)
 
     def _field(self, name: str, spec: Spec) -> np.ndarray | None:
         """Return the displacement at the points, by the table of solves."""
         done = self._done(Request(self.probed[name], spec, label=f"{name} {spec.label}").task)
         return None if done is None else np.array([*done.row["probes"].values()])
 
-    def _ask(self, task: str, name: str, label: str, **arguments: Any) -> np.ndarray | None:
+    def _result_of(self, task: str, name: str, label: str, **arguments: Any) -> np.ndarray | None:
         """Return a run's result, or None where it has no answer to the whole load or is not done yet."""
         arguments["scene"] = self.texts[name]
         done = self._done(Run(f"studies.transfer.tasks:{task}", arguments, f"{name} {label}"))

@@ -4,8 +4,6 @@ Displacements [m] are taken at 5 × 5 points evenly over the sheet, edges includ
 grid of 4 n + 1 masses a side; frequencies in Hz.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

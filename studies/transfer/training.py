@@ -16,8 +16,6 @@ A thin plate's deflection is proportional to 1/a for a given b/a, and smooth in 
 few values, interpolated by polynomials, minimised over a fine grid.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path

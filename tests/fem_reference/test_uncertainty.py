@@ -11,7 +11,7 @@ import fem_reference
 from comparisons.comparison.comparison import compare
 from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep import in_process as table
-from fem_reference.edge_layer import NOTHING, Missed, captured, missed_by
+from fem_reference.edge_layer import NOTHING, UnresolvedLayers, resolved, unresolved
 from fem_reference.uncertainty import FITTED, coarser, estimate, largest_order, of_solutions, solve_with_bar
 from sheetbench import scenes
 from sheetbench.answers.files import to_json
@@ -52,7 +52,7 @@ def test_the_order_and_the_limit_of_a_power_law_are_found(order, sizes):
 def test_the_bar_is_1_35_times_the_largest_error_at_the_order_that_is_banked_on(answers, share, order):
     """What is seen, of changes that swing or grow that of the elements, 3; at most 3 − 2 s where meshes miss
     a share s of the layer."""
-    found = estimate(answers, SIZES, [Missed(share, 0.0)] * 3)
+    found = estimate(answers, SIZES, [UnresolvedLayers(share, 0.0)] * 3)
     assert found.bar.item() == pytest.approx(1.35 * max(errors_at(answers, order)).item(), rel=1e-6)
     assert found.error == pytest.approx(found.bar.item() / abs(found.answer.item()))
     if isinstance(answers, np.ndarray):
@@ -90,10 +90,10 @@ def test_a_component_that_changes_little_by_chance_has_the_bar_of_its_neighbours
 
 def test_what_the_meshes_miss_of_the_layer_is_in_the_bar():
     """Answers that are too stiff by half of η, and by nothing else."""
-    missed = [Missed(0.2, 0.01), Missed(0.3, 0.016), Missed(0.5, 0.03)]
+    missed = [UnresolvedLayers(0.2, 0.01), UnresolvedLayers(0.3, 0.016), UnresolvedLayers(0.5, 0.03)]
     answers = [np.array([[1.0 - 0.5 * layer.stiffening]]) for layer in missed]
     assert estimate(answers, SIZES, missed).bar.item() > 0.5 * missed[0].stiffening
-    alike = [Missed(0.99, 0.03)] * 3
+    alike = [UnresolvedLayers(0.99, 0.03)] * 3
     same = [np.array([[1.0 + 1e-6 * k]]) for k in range(3)]
     assert estimate(same, SIZES, alike).bar.item() == pytest.approx(1.35 * 0.3 * 0.03, rel=1e-3)
     still = estimate(same, SIZES, missed).bar.item()
@@ -256,7 +256,7 @@ def test_compare_says_what_its_mesh_cannot_tell_apart(by_mesh, lumped, told_apar
     by_mesh["lumped"] = lumped
     found = compare("one-edge-clamped", Lattice(calibration="consistent"), elements=8)
     assert found.bar is not None
-    layer = missed_by(found.scene, {"elements": 8}).stiffening
+    layer = unresolved(found.scene, {"elements": 8}).stiffening
     assert 1.35 * 0.08 / 64 < 1.0001 * found.bar.error < 1.35 * (0.08 / 64 + 0.3 * layer)
     document = json.loads(to_json(found.document()))
     assert {d["distinguishable"] for d in document["differences"]} == {told_apart}
@@ -295,10 +295,10 @@ def test_a_field_that_converges_is_trusted_whatever_a_small_component_does():
 
 
 def test_the_layer_is_found_by_small_elements_and_missed_by_large_ones():
-    assert captured(np.full(60, 0.2)) == pytest.approx(1.0, abs=1e-5)
+    assert resolved(np.full(60, 0.2)) == pytest.approx(1.0, abs=1e-5)
     for length in (100.0, 1000.0):  # the mass alone, of elements of one length
-        assert captured(np.full(20, length)) == pytest.approx(6.0 * 2.0**0.5 / length, rel=15.0 / length)
-    assert np.all(np.diff([captured(np.full(20, t)) for t in (0.5, 1.0, 2.0, 4.0, 8.0)]) < 0.0)
+        assert resolved(np.full(20, length)) == pytest.approx(6.0 * 2.0**0.5 / length, rel=15.0 / length)
+    assert np.all(np.diff([resolved(np.full(20, t)) for t in (0.5, 1.0, 2.0, 4.0, 8.0)]) < 0.0)
 
 
 def hinged(thickness):
@@ -313,18 +313,18 @@ def test_hinged_plates_are_too_stiff_by_two_thirds_of_what_is_missed(thickness, 
     truth, coarse = (
         fem_reference.solve(scene, "plate", elements=n).displacement(middle)[0, 2] for n in (32, elements)
     )
-    lost = missed_by(scene, {"elements": elements}).stiffening
+    lost = unresolved(scene, {"elements": elements}).stiffening
     assert 1.0 - coarse / truth == pytest.approx(0.63 * lost, rel=0.15)
 
 
 def test_clamps_have_no_such_layer_and_even_meshes_miss_more():
     held = sheet(0.188, 0.188, 0.003, held="x0 x1 y0 y1")
-    assert missed_by(held, {"elements": 8}) == NOTHING
+    assert unresolved(held, {"elements": 8}) == NOTHING
     scene = hinged(0.01)
-    graded, even = (missed_by(scene, {"elements": [8, 8], "graded": g}) for g in (True, False))
+    graded, even = (unresolved(scene, {"elements": [8, 8], "graded": g}) for g in (True, False))
     assert even.share > graded.share > 0.0
-    assert graded == missed_by(scene, {"elements": 8})
-    assert even == missed_by(scene, {"elements": 8, "grading": "uniform"})
+    assert graded == unresolved(scene, {"elements": 8})
+    assert even == unresolved(scene, {"elements": 8, "grading": "uniform"})
 
 
 def test_bricks_miss_a_layer_where_stiffness_steps():
@@ -332,9 +332,9 @@ def test_bricks_miss_a_layer_where_stiffness_steps():
     scene, bricks = scenes.load("ray-fin"), {"elements": [24, 12], "grading": "edges"}
     plain = scene.replace(patches=())
     same = scene.replace(patches=[scene.patches[0].replace(young=scene.material.young)])
-    assert missed_by(scene, bricks).share == 1.0 > missed_by(plain, bricks).share
-    assert missed_by(same, bricks) == missed_by(plain, bricks)
-    assert missed_by(scene, {"elements": [24, 12]}) == missed_by(plain, {"elements": [24, 12]})
+    assert unresolved(scene, bricks).share == 1.0 > unresolved(plain, bricks).share
+    assert unresolved(same, bricks) == unresolved(plain, bricks)
+    assert unresolved(scene, {"elements": [24, 12]}) == unresolved(plain, {"elements": [24, 12]})
     answers = [np.array([[1.0 + off]]) for off in (0.00684, 0.00959, 0.01375)]
-    found = estimate(answers, [1 / 12, 1 / 8, 1 / 6], [missed_by(scene, bricks)] * 3)
+    found = estimate(answers, [1 / 12, 1 / 8, 1 / 6], [unresolved(scene, bricks)] * 3)
     assert found.bar.item() > 0.00684  # 0.0032 at the order of meshes that miss half of the rim

@@ -22,7 +22,7 @@ FEW: dict[str, Any] = {  # of comparisons.stability.extremes: two runs along eac
     "CELLS": {"lumped": (2, 4), "references": (2,)},
     "DAMPING": (0.1,),
     "DIVISIONS": (20, 4),
-    "FINE": 50,
+    "FINE_STEPS": 50,
     "PERIODS": 0.5,
 }
 

@@ -1,7 +1,5 @@
 """Scenes with obstacles and their closed forms: the heavy elastica that lies down, by shooting."""
 
-from __future__ import annotations
-
 import numpy as np
 from cases import sheet
 from scipy.integrate import cumulative_trapezoid, solve_ivp, trapezoid

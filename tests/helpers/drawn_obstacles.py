@@ -3,8 +3,6 @@
 A solver that reports no equilibrium is not faults_of.
 """
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -102,7 +102,7 @@ def undraw(patch: pytest.MonkeyPatch) -> None:
         Path(place).touch()
 
     patch.setattr(Figure, "savefig", touch)
-    patch.setattr(offscreen, "why_not", lambda: "not drawn")
+    patch.setattr(offscreen, "unavailable_reason", lambda: "not drawn")
 
 
 def run_here(patch: pytest.MonkeyPatch) -> None:

@@ -40,6 +40,7 @@ def test_what_is_asked_is_read_as_people_write_it():
     assert parse_grading("0.6:x0") == LEFT and str(LEFT) == "0.6:x0" and parse_grading(LEFT) is LEFT
     assert parse_grading("0.5:x1,x0") == Grading(0.5, ("x0", "x1"))
     assert parse_grading("0.5:y1,y0,x0,x1") == 0.5 and parse_grading("0:x0") == 0.0
+    assert [parse_grading(text) for text in (None, "auto", "0.25", 1)] == [None, "auto", 0.25, 1.0]
     assert of_settings(as_settings(LEFT), OBLONG.lengths) == LEFT and as_settings(0.5) == {"grading": 0.5}
     for wrong in ("0.5:z0", "0.5:x0;y0", "2:x0", "auto:x0"):
         with pytest.raises(BadInput, match="grading = "):

@@ -234,7 +234,7 @@ def test_a_field_is_that_of_the_scene_that_has_it():
 
 # what the first gradient of a scene makes: both sides of ν and h, of gravity along x, y and z, and of a tilt
 COUNTED = {
-    "lumped.parameter_sides.build_problem": 12,
+    "lumped.gradient.build_problem": 12,
     "lumped.parameter_sides.springs_of_sheets": 1,  # all four at once
     "lumped.parameter_sides.calibrated_at_rest": 0,
     "lumped.assembly.build": 0,  # of plans

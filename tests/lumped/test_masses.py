@@ -7,9 +7,9 @@ import pytest
 from cases import sheet
 
 import lumped
-from lumped.carried import point_masses, rotary_masses
 from lumped.lattice import build
 from lumped.masses import mass_matrix, masses, sheet_masses
+from lumped.payloads import point_masses, rotary_masses
 from lumped.statics.solver import build_problem
 from sheetbench.scenes import Material, Scene, Sheet
 from sheetbench.scenes.objects.grading import through

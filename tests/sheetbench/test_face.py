@@ -91,14 +91,6 @@ def test_a_name_that_is_none_is_refused(verb):
         getattr(sb, verb)("no-such-sheet")
 
 
-def test_grids_are_numbers_or_tuples():
-    scene = sb.load(NAME)
-    direct = lumped.calibrate(scene.sheet, scene.material, grid=5)
-    assert direct == lumped.calibrate(scene.sheet, scene.material, grid=(5, 5))
-    for grid in (5, (5, 5), (5, 5, 2), "5x5"):
-        assert sb.calibrate(NAME, grid=grid).springs == direct.springs
-
-
 def test_a_saved_scene_holds_every_digit(tmp_path):
     way = [[0.0] * 3, [0.01, 0.0, 0.0]]
     moved = sb.EdgeMotion(kind="motion", time=[0.0, 1.0], edge="x1", displacement=way)

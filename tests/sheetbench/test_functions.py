@@ -52,8 +52,6 @@ def test_what_the_terminal_has_python_has(tmp_path):
     sb.modes("one-edge-clamped", grid=3, elements=2, count=2, out=tmp_path / "modes", no_pictures=True)
     record = json.loads((tmp_path / "modes" / "manifest.json").read_text(encoding="utf-8"))
     assert record["runs"]["modes"]["finished"] and (tmp_path / "modes" / "modes.json").is_file()
-    with pytest.raises(sb.BadInput, match="overwrite"):
-        sb.modes("two-edges-clamped", grid=3, elements=2, count=2, out=tmp_path / "modes")
     assert sb.report(tmp_path) == tmp_path / "report.html" and (tmp_path / "report.html").is_file()
     assert sb.new(tmp_path / "mine.toml", side=(0.1, 0.2)).is_file()
     for name, part in (("reproduction", "nearest"), ("promises", "expected")):

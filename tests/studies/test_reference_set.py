@@ -33,7 +33,7 @@ def test_rows_of_the_leaderboard_go_into_the_file(tmp_path, monkeypatch):
     monkeypatch.setattr(leaderboard, "FILE", file)
     (name, known), *_ = references("statics").items()
     monkeypatch.setattr(leaderboard, "references", lambda suite: {name: known})
-    leaderboard.stand(["plate:elements=16", "kratos:elements=16"], said.append)
+    leaderboard.measure_models(["plate:elements=16", "kratos:elements=16"], said.append)
     after = json.loads(file.read_text())
     assert said[0] == "plate:elements=16" and len(said) == 2
     rows = [{(row["model"], row["case"]): row for row in one["standing"]} for one in (before, after)]

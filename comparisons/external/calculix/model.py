@@ -14,8 +14,6 @@ Source: CalculiX CrunchiX user's manual 2.20, sections on *HYPERELASTIC, *STATIC
 *TRANSFORM, *NODE PRINT, *ELASTIC, *ORIENTATION.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Iterable, Mapping
@@ -28,7 +26,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from comparisons.external.answer import BRICK_MOMENTS, Code, Reached, refusal
+from comparisons.external.answer import BRICK_MOMENTS, Code, CodeAnswer, refusal
 from comparisons.external.bricks import Bricks, forces, held, materials
 from comparisons.external.output import Failed, output_of
 from sheetbench.scenes import Material, Pressure, Scene
@@ -163,8 +161,8 @@ class CalculiX(Code):
         """Return the program's version, None if it is not installed."""
         return _version(shutil.which(PROGRAM))
 
-    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> Reached:
-        text, reached = deck(scene, mesh), Reached(np.zeros_like(mesh.positions))
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Bricks) -> CodeAnswer:
+        text, reached = deck(scene, mesh), CodeAnswer(np.zeros_like(mesh.positions))
         start = perf_counter()
         with TemporaryDirectory(prefix="sheetbench-ccx-") as name:
             folder = Path(name)
@@ -172,7 +170,7 @@ class CalculiX(Code):
             try:
                 output_of([shutil.which(PROGRAM) or PROGRAM, JOB], folder, settings["time_limit"])
                 factor, u = displacements(_read(folder, "dat"), len(mesh.positions))
-                reached = Reached(u, factor)
+                reached = CodeAnswer(u, factor)
             except Failed as error:
                 reached = reached._replace(note=f"CalculiX: {error}")
             count = iterations(_read(folder, "sta"))

@@ -13,8 +13,6 @@ displacement and a rotation vector as unknowns. A clamp holds all six components
 SI.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,13 +20,13 @@ from functools import cached_property
 from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 from skfem import MeshQuad
 
-from comparisons.external.answer import Code, Reached, refusal, require_count
+from comparisons.external.answer import Code, CodeAnswer, refusal, require_count
 from comparisons.external.bricks import SITES, point_loads
 from comparisons.external.output import Failed, output_of
 from fem_reference.surface.location import locate
@@ -55,7 +53,7 @@ class Triangles:
     counts: tuple[int, int]
 
     @classmethod
-    def of(cls, sheet: Sheet, elements: int) -> Triangles:
+    def of(cls, sheet: Sheet, elements: int) -> Self:
         """Mesh a sheet with near-square cells of one size; elements: cells along the shorter side."""
         counts = near_square(sheet, elements)
         return cls(rectangle(sheet, counts), counts)
@@ -179,15 +177,15 @@ class Kratos(Code):
         self.require_installed()
         return Triangles.of(scene.sheet, settings["elements"])
 
-    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles) -> Reached:
-        reached = Reached(np.zeros_like(mesh.positions))
+    def at_rest(self, scene: Scene, settings: Mapping[str, Any], mesh: Triangles) -> CodeAnswer:
+        reached = CodeAnswer(np.zeros_like(mesh.positions))
         for steps in STEPS:
             arrays = problem(scene, mesh, np.arange(1, steps + 1) / steps)
             try:
                 answer = _solve_in_process(arrays, settings["time_limit"])
             except Failed as error:
                 return reached._replace(note=f"Kratos: {error}")
-            reached = Reached(
+            reached = CodeAnswer(
                 answer["displacement"],
                 float(answer["load_factor"]),
                 reached.iterations + int(answer["iterations"]),

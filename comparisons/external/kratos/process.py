@@ -7,8 +7,6 @@ load factor of the last converged step, and the number of iterations, each with 
 Newton's method runs at increasing load factors, each step from the last step's state.
 """
 
-from __future__ import annotations
-
 import sys
 from time import perf_counter
 from typing import Any

@@ -8,8 +8,6 @@ test: uniaxial, pure-shear (a wide strip held along its width) or equibiaxial; A
 A curve may be of tension, of compression (stretch below 1) or of both.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

@@ -13,8 +13,6 @@ next one's (AR(1)), in the degrees of freedom of Student's intervals. Sources: T
 Physics of Rubber Elasticity (1975); Bates and Watts, Nonlinear Regression Analysis (1988).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isfinite, log

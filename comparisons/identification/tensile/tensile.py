@@ -1,7 +1,5 @@
 """Choice of a law of rubber, and its constants, from a tensile test: `sheetbench identify --tensile`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any

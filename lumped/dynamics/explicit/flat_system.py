@@ -26,15 +26,15 @@ class FlatSystem:
         self._driven = np.argwhere(system.prescribed.components)
         free, held = _freedom(system)
         of_masses = system.lattice_mass, system.damping.rate
-        mass, rate = (self._flat(np.repeat(x[:, None], 3, 1)) for x in of_masses)
+        mass, rate = (self._at_places(np.repeat(x[:, None], 3, 1)) for x in of_masses)
         self.at_once = max(LEAST, round(CALL / (sum(map(len, system.assembly.springs)) * PER_SPRING)))
         pressure = np.stack([part.pressure for part in parts])
         cells = count + self._places[lattice.mid_cells[:, :, 0], 0]
         self.arrays = ExplicitArrays(
             packing,
             ExplicitLoads(
-                np.stack([self._flat(part.dead) for part in parts]),
-                self._flat(lattice.positions),
+                np.stack([self._at_places(part.dead) for part in parts]),
+                self._at_places(lattice.positions),
                 cells if pressure.any() else cells[:0],
                 pressure,
                 self._places[np.concatenate([part.columns for part in parts]), 0],
@@ -42,12 +42,12 @@ class FlatSystem:
                 np.repeat(np.arange(len(parts)), [len(part.moments) for part in parts]),
             ),
             mass,
-            np.divide(1.0, mass, out=np.zeros_like(mass), where=self._flat(free) > 0.0),
+            np.divide(1.0, mass, out=np.zeros_like(mass), where=self._at_places(free) > 0.0),
             rate if rate.any() else np.empty(0),
             self._places.ravel()[held],
             self._places[tuple(self._driven.T)],
             system.damping.present,
-            system.working,
+            system.nonconservative,
         )
 
     def march(self, state: State, step: float, most: int) -> Advance[State]:
@@ -55,7 +55,7 @@ class FlatSystem:
         before a step that fails. Raises StepFailed if the first one fails."""
         count = min(most, self.at_once)
         while True:
-            vectors = [self._flat(vector) for vector in (state.u, state.v, state.a)]
+            vectors = [self._at_places(vector) for vector in (state.u, state.v, state.a)]
             times = np.cumsum(np.append(state.time, np.full(count, step)))  # summed step by step
             tables = self._factors(times), *self._prescribed(times)
             finite, steps, dissipated, work = march(count, step, self.arrays, *tables, *vectors)
@@ -71,7 +71,7 @@ class FlatSystem:
         vectors, times = np.zeros((3, *self.arrays.mass.shape)), np.zeros(1)
         march(0, 1.0, self.arrays, self._factors(times), *self._prescribed(times), *vectors)
 
-    def _flat(self, vector: np.ndarray) -> np.ndarray:
+    def _at_places(self, vector: np.ndarray) -> np.ndarray:
         """Return a vector (n, 3) at the places, (3 s,)."""
         out = np.zeros(self._size)
         out[self._places] = vector
@@ -94,8 +94,8 @@ class FlatSystem:
             rate[:, moved, axis] += course.slope(times)[:, axis, None]
         if system.coupling is not None:
             for at, time in enumerate(times):
-                place[at] += system.coupling.driven(system.drive(time))
-                rate[at] += system.coupling.driven_velocity(time)
+                place[at] += system.coupling.prescribed_displacement(system.drive(time))
+                rate[at] += system.coupling.prescribed_velocity(time)
         # C order, as without prescribed motions, or steps are compiled a second time
         return np.ascontiguousarray(place[:, rows, axes]), np.ascontiguousarray(rate[:, rows, axes])
 

@@ -41,8 +41,8 @@ class ExplicitLoads(NamedTuple):
 class ExplicitArrays(NamedTuple):
     """Constant arrays of explicit steps, at s places. mass, inverse_mass: (3 s,) [kg], [1/kg], the inverse
     zero of held components; rate: (3 s,) or empty, damping of each mass [N·s/m]; held: (h, layers) places
-    whose mean is held; driven: places that g(t) moves; damped: whether there are dampers; working: whether
-    loads change or follow the sheet."""
+    whose mean is held; driven: places that g(t) moves; damped: whether there are dampers; nonconservative:
+    whether loads change or follow the sheet."""
 
     packing: Packing
     loads: ExplicitLoads
@@ -52,7 +52,7 @@ class ExplicitArrays(NamedTuple):
     held: np.ndarray
     driven: np.ndarray
     damped: bool
-    working: bool
+    nonconservative: bool
 
 
 @njit(**OPTIONS)
@@ -83,7 +83,7 @@ def march(
     if arrays.damped or len(driven):
         w[:] = v
         power = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, predictor)[1]
-        power += _resist(rate, v, force)
+        power += _add_damping(rate, v, force)
         for i in range(len(driven)):
             exerted[i] = _exerted(arrays, driven[i], a, force, load)
     for n in range(steps):
@@ -98,12 +98,12 @@ def march(
             p, jump = driven[i], place[n + 1, i] - place[n, i] - h * place_rate[n, i]
             d[p], u[p] = d[p] + jump, u[p] + jump
             v[p] += place_rate[n + 1, i] - place_rate[n, i]
-        if arrays.working:
+        if arrays.nonconservative:
             load, before = before, load
             add_loads(arrays, factors[n + 1], u, load)
             work += _work_of_loads(arrays.loads.dead[0], before, load, d)
         taking = at_places(NUMBA_TRUE, NUMBA_TRUE, packing.damped, NUMBA_TRUE, packing, predictor)[1]
-        taking += _resist(rate, w, force)
+        taking += _add_damping(rate, w, force)
         if not _accelerate(0.5 * h, arrays, load, force, a, v):
             return False, n, taken, work
         if arrays.damped:
@@ -113,7 +113,7 @@ def march(
             if packing.damped:
                 fresh = not packing.keeping
                 taking += at_places(fresh, NUMBA_FALSE, NUMBA_TRUE, NUMBA_TRUE, packing, corrector)[1]
-            taking += _resist(rate, d, resisting)
+            taking += _add_damping(rate, d, resisting)
             for i in range(len(d)):
                 taking += 2.0 * w[i] * resisting[i]
                 force[i] += resisting[i]
@@ -130,7 +130,7 @@ def march(
 
 
 @njit(**OPTIONS)
-def _resist(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
+def _add_damping(rate: np.ndarray, v: np.ndarray, force: np.ndarray) -> float:
     """Add the forces of the masses' damping, if any; return the power taken [W]."""
     power = 0.0
     for i in range(len(rate)):

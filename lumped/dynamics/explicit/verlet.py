@@ -40,9 +40,9 @@ class Verlet(Integrator):
         super().__init__(system, step)
         _require_no_chains(system)
         one_by_one = not system.packed or system.items or system.damping.drag.coefficient > 0.0
-        self._flat = None if one_by_one or system.shared_mass else FlatSystem(system)
-        if self._flat is not None:
-            self._flat.compile()
+        self._at_places = None if one_by_one or system.shared_mass else FlatSystem(system)
+        if self._at_places is not None:
+            self._at_places.compile()
 
     @classmethod
     def limit(cls, system: System, u: np.ndarray) -> StepLimit:
@@ -53,9 +53,9 @@ class Verlet(Integrator):
     def march(self, state: State, step: float, most: int) -> Advance[State]:
         """Return steps in one compiled call; a single step with branches, a natural state, springs without an
         energy, items, air or bodies with moments of inertia. Raises StepFailed."""
-        if self._flat is None:
+        if self._at_places is None:
             return super().march(state, step, most)
-        return self._flat.march(state, step, most)
+        return self._at_places.march(state, step, most)
 
     def advance(self, state: State, at_most: float) -> Advance[State]:
         """Return one explicit step. Raises StepFailed when a number overflows."""

@@ -80,17 +80,17 @@ class Esdirk(Integrator):
         """Return one step; an adaptive one divides `at_most` evenly and is repeated until its error is small.
         Raises StepFailed, or SingularMatrixError."""
         if not self.adapts:
-            return self._advance(state, self._solved(state, at_most, None))
+            return self._advance(state, self._solve_step(state, at_most, None))
         if self._largest == 0.0:
-            self._begin(state)
+            self._set_first_step(state)
         state, at_most = self._from_kink(state, at_most)
         reached, began = self._largest, self._energies(state) if self.system.items else []
         # the last correction [m] of the step's equations
-        enough = (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._small
+        enough = (SHARE_WITH_DAMPERS if self.system.packing.damped else SHARE) * self._allowed_error
 
         def attempt(h: float) -> tuple[EsdirkStep, float, float]:
             nonlocal reached
-            step = self._solved(state, h, enough)
+            step = self._solve_step(state, h, enough)
             error = h * largest(ERRORS, step.stages.v)
             error = max(error, self._largest * step.error_of_branches())
             reached = max(self._largest, largest(END, step.stages.u))
@@ -113,11 +113,11 @@ class Esdirk(Integrator):
         return list(self.system.balance(state)[0].values())
 
     @property
-    def _small(self) -> float:
+    def _allowed_error(self) -> float:
         """Return the error that an adaptive step may have, or the default one [m]."""
         return min(self._error, ERROR) * self._largest
 
-    def _begin(self, state: State) -> None:
+    def _set_first_step(self, state: State) -> None:
         """Set the first step [s] and the displacement that errors are relative to before any motion:
         fractions of the time and distance to equilibrium if the lattice were linear."""
         system, still = self.system.for_step(state), np.zeros_like(state.u)
@@ -149,21 +149,21 @@ class Esdirk(Integrator):
         ahead = system.kinks[system.kinks > now + near]
         return state, min([at_most, *(ahead[:1] - now)])
 
-    def _solved(self, state: State, h: float, tolerance: float | None) -> EsdirkStep:
+    def _solve_step(self, state: State, h: float, tolerance: float | None) -> EsdirkStep:
         """Return a step with all its stages."""
         by, step = 1.0 / (GAMMA * h), EsdirkStep(self.system, state, h)
-        if not (self._newton.near(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
+        if not (self._newton.can_reuse_factors(by * by) and 0 < self._newton.made <= KEEP_FACTORS_UP_TO):
             middle = state.u + 0.5 * h * (state.v + 0.25 * h * state.a)
             equation = StepEquation(step.in_stage(0), state.time + 0.5 * h, middle, state.v, (by * by, by))
             self._newton.renew(equation, middle)
         times = step.stages.time
-        shifts, turns = self._shifts(times, h)
+        shifts, turns = self._support_offsets(times, h)
         given = Step(h, STAGES, GUESSES, by, by * by, shifts, turns, self.system.loads(times.tolist()))
         if not self._newton.solve_stages(given, step.stages, tolerance):
             self._solve_one_by_one(given, step, tolerance)
         return step
 
-    def _shifts(self, times: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
+    def _support_offsets(self, times: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray]:
         """Return the offsets of the supports from the positions by the stages' velocities, (7, n, 3) [m], and
         of their velocities from those at the start, (7, n, 3) [m/s]; both empty without moving supports."""
         system, motion, began = self.system, self.system.prescribed, float(times[0])
@@ -196,7 +196,7 @@ class Esdirk(Integrator):
         """Return the states at times (k,) [s] within the last step; energies since it began."""
         if last.state.time == times[0]:
             return super().at(times, last)
-        tolerance = SHARE * self._small if self.adapts else None
+        tolerance = SHARE * self._allowed_error if self.adapts else None
         self._energy = max(self._energy, kinetic_of(self.system, last.state.v))
         enough = ENERGY * min(self._error, ERROR) * self._energy if self.adapts else 0.0
         return self._step.at(times, last.state, self._newton, tolerance, enough)
@@ -207,9 +207,9 @@ class Esdirk(Integrator):
         same = last is start or (self.adapts and last is not None and last.a is start.a)  # but for its time
         power[0] = self._end[1] if same else self._power(start)
         self._step, end = step, step.state(-1)
-        if motion.moving or system.working or system.pushed:
+        if motion.moving or system.nonconservative or system.pushed:
             for i in range(1, len(power)):
-                power[i, 1] = self._put_in(step.state(i), before=True)
+                power[i, 1] = self._power_input(step.state(i), before=True)
         taken, put_in = step.h * (STAGES[-1] @ power)
         if system.maxwell is not None and start.memory is not None and end.memory is not None:
             branches = system.maxwell.branches
@@ -223,15 +223,15 @@ class Esdirk(Integrator):
 
     def _power(self, state: State) -> np.ndarray:
         """Return the power [W] that dampers take and the power put in, from a state on."""
-        return np.array([self.system.power(state), self._put_in(state)])
+        return np.array([self.system.power(state), self._power_input(state)])
 
-    def _put_in(self, stage: State, before: bool = False) -> float:
+    def _power_input(self, stage: State, before: bool = False) -> float:
         """Return the power [W] put in by moving supports, without the acceleration of their own masses, and
         by loads without a potential, from a moment on, or until then."""
         system, motion, put_in = self.system, self.system.prescribed, 0.0
         if motion.moving:
             put_in += float(np.sum(system.exerted(stage) * motion.rate(stage.time, before=before)))
-        if system.working:
+        if system.nonconservative:
             force = system.external(stage.u, stage.time) - system.problem.loads.dead
             put_in += float(np.sum(force * stage.v))
             put_in += natural_power(system, stage.u, stage.time, before)

@@ -41,7 +41,7 @@ class EsdirkStep:
         of = self.stages
         return State(float(of.time[i]), of.u[i], of.v[i], of.a[i], self.memories[i])
 
-    def _relaxed(self, weights: np.ndarray) -> np.ndarray:
+    def _weighted_memory(self, weights: np.ndarray) -> np.ndarray:
         """Return a weighted sum of the branches' memories at the first stages."""
         parts = zip(weights, self.memories, strict=False)
         return np.sum([weight * memory[1:] for weight, memory in parts if memory is not None], axis=0)
@@ -50,9 +50,9 @@ class EsdirkStep:
         """Return the equations of stage i."""
         if self.system.maxwell is None:
             return self.system
-        return self._relaxing(self.h * self._relaxed(STAGES[i, : max(i, 1)]), GAMMA * self.h)
+        return self._with_branches(self.h * self._weighted_memory(STAGES[i, : max(i, 1)]), GAMMA * self.h)
 
-    def _relaxing(self, relaxed: np.ndarray, h_gamma: float) -> System:
+    def _with_branches(self, relaxed: np.ndarray, h_gamma: float) -> System:
         """Return the equations of motion with branches by `Maxwell.stage`."""
         if self.system.maxwell is None or (start := self.memories[0]) is None:
             return self.system
@@ -65,7 +65,7 @@ class EsdirkStep:
             return 0.0
         strains = [np.abs(memory[0, 1]).max() for memory in self.memories if memory is not None]
         largest = float(max(strains))
-        missed = self._relaxed(self.h * ERRORS)[:, 1] / maxwell.times[:, None]
+        missed = self._weighted_memory(self.h * ERRORS)[:, 1] / maxwell.times[:, None]
         return float(np.abs(missed).max()) / largest if largest else 0.0
 
     def at(
@@ -83,7 +83,7 @@ class EsdirkStep:
         memories: list[np.ndarray | None] = [None] * len(times)
         inside = [system] * len(times)
         if system.maxwell is not None:
-            inside = [self._relaxing(self._relaxed(weight), 0.0) for weight in weights]
+            inside = [self._with_branches(self._weighted_memory(weight), 0.0) for weight in weights]
         c1, reaches_end = 1.0 / (GAMMA * h), end.time == times[-1]
         by = c1**2, c1
         for i in range(len(times) - reaches_end):

@@ -47,7 +47,7 @@ class GeneralisedAlpha(Integrator):
         def attempt(h: float) -> tuple[tuple[State, np.ndarray], float, float]:
             nonlocal largest
             after, algorithm = self._step(state, h)
-            jump = float(np.abs((algorithm - self._old(state, h))[: self._masses]).max())
+            jump = float(np.abs((algorithm - self._previous_acceleration(state, h))[: self._masses]).max())
             largest = max(self._largest, float(np.abs(after.u[: self._masses]).max()))
             allowed = ERROR * max(largest, 1e-6 * self.system.problem.size)
             return (after, algorithm), h * h * self._rule.error * jump, allowed
@@ -65,7 +65,7 @@ class GeneralisedAlpha(Integrator):
         self._taken = after, power
         return Advance(after, 0.5 * h * (before + power) + relaxed, work(self.system, state, after))
 
-    def _old(self, state: State, h: float) -> np.ndarray:
+    def _previous_acceleration(self, state: State, h: float) -> np.ndarray:
         """Return the algorithm's acceleration at a step's start."""
         if self._algorithm is None:
             return state.a
@@ -80,7 +80,7 @@ class GeneralisedAlpha(Integrator):
         motion = system.prescribed
         held = motion.place(time) - motion.place(state.time) - h * motion.rate(state.time)
         turn = motion.rate(time) - motion.rate(state.time)
-        step = step_of(self._rule, h, state.u, state.v, state.a, self._old(state, h))
+        step = step_of(self._rule, h, state.u, state.v, state.a, self._previous_acceleration(state, h))
         base_u, base_v = step.base_u + held, step.base_v + turn
         equation = StepEquation(system.for_step(state, h), time, base_u, base_v, (step.by_a, step.by_v))
         try:

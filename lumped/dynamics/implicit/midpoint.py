@@ -80,7 +80,7 @@ class Midpoint(Integrator):
         work = imposed_work(system, state, after)
         if motion.moving:
             work += float(np.sum(residual(u) * moved))
-        if system.working:
+        if system.nonconservative:
             working = system.external(mean(u), middle) - system.problem.loads.dead
             work += float(np.sum(working * (u - state.u)))
         if system.pushed:

@@ -127,7 +127,7 @@ class Newton:
         directions: half the work of its residual along its own correction; infinite without suitable factors.
         system: with its branches at that time."""
         u, v, a = state.u, state.v, state.a
-        if (compiled := self._compiled) is not None and self.near(by[0]):
+        if (compiled := self._compiled) is not None and self.can_reuse_factors(by[0]):
             return excess(u, v, a, by, system.loads([state.time])[0], compiled.arrays, self._factors)
         left = system.problem.reduce(system.momentum(a) - system.unbalanced(u, v, state.time))
         factor = self._factor if self._key == by else None
@@ -150,14 +150,14 @@ class Newton:
         StepFailed."""
         compiled, first, left = self._compiled, 1, 0
         limits, self.made = self._limits(tolerance), 0
-        if compiled is None or not self.near(step.mass_coefficient):
+        if compiled is None or not self.can_reuse_factors(step.mass_coefficient):
             return False
         while True:
             solved, first, left, made = solve_stages(
                 first, left, step, stages, limits, compiled.arrays, self._factors
             )
             self.made += made
-            if self._solved(solved, left):
+            if self._converged(solved, left):
                 return True
             by = step.mass_coefficient, step.damping_coefficient
             base = compiled.base_u, compiled.base_v
@@ -170,7 +170,7 @@ class Newton:
         ratio = self._stale if stale is None else stale
         return NewtonLimits(small, self._system.problem.size, ratio, CORRECTIONS)
 
-    def near(self, mass_coefficient: float) -> bool:
+    def can_reuse_factors(self, mass_coefficient: float) -> bool:
         """Return whether the compiled iteration's factors can be reused for an equation with this c₂."""
         taken = self._factored
         return taken is not None and abs(mass_coefficient / taken - 1.0) < REUSE_FACTORS_WITHIN
@@ -201,13 +201,13 @@ class Newton:
             return None
         u, remaining, base = guess.copy(), CORRECTIONS, (equation.base_u, equation.base_v)
         given = equation.by, self._system.loads([equation.time])[0], limits, compiled.arrays
-        while self.near(equation.by[0]) or self._factorise(equation, u):
+        while self.can_reuse_factors(equation.by[0]) or self._factorise(equation, u):
             solved, remaining = iterate(remaining, u, *base, *given, self._factors)
-            if self._solved(solved, remaining):
+            if self._converged(solved, remaining):
                 return u
         return None
 
-    def _solved(self, solved: bool, remaining: int) -> bool:
+    def _converged(self, solved: bool, remaining: int) -> bool:
         """Return whether the compiled iteration has converged, and drop its factors otherwise. Raises
         StepFailed if no corrections are left."""
         if not solved:

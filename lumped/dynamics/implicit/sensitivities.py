@@ -28,7 +28,6 @@ from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.system import State, System
 from lumped.lattice import Weights
 from lumped.parameter_sides import both_sides
-from lumped.statics.build import build_problem
 from sheetbench.errors import BadInput
 from sheetbench.numerics.time.method import Advance, StepFailed
 from sheetbench.scenes import Scene
@@ -55,9 +54,8 @@ class Sided:
     """A parameter's two systems, half the difference of their states, and the memories of their branches."""
 
     def __init__(self, scene: Scene, calibration: Calibration, weights: Weights, name: str):
-        problem = build_problem(scene, calibration, weights)
-        (((low, high), over),) = both_sides(calibration, problem, [name], share=STEP)
-        made = [in_motion(side.scene, springs, weights) for side, springs in (high, low)]
+        ((ends, over),) = both_sides(scene, calibration, [name], share=STEP)
+        made = [in_motion(*end, weights) for end in reversed(ends)]
         self.systems, states = zip(*made, strict=True)
         places = [system.problem.prescribed(1.0) for system in self.systems]
         if self.systems[0].items or not np.array_equal(*places):
@@ -65,21 +63,6 @@ class Sided:
         self.half, self.largest, self.memories = 0.5 * over, 0.0, [state.memory for state in states]
         high_state, low_state = (np.array([state.u, state.v, state.a]) for state in states)
         self.change: Change = 0.5 * (high_state - low_state)
-
-    def residual(self, systems: Sequence[System], at: Change, change: Change, time: float) -> np.ndarray:
-        """Return half the difference of both sides' residuals (n, 3) [N]."""
-        sides = zip(systems, (at + change, at - change), strict=True)
-        high, low = (one.momentum(a) - one.unbalanced(u, v, time) for one, (u, v, a) in sides)
-        return np.asarray(0.5 * (high - low))
-
-    def accelerated(self, at: Change, time: float) -> np.ndarray:
-        """Return half the difference of both sides' accelerations where they begin anew."""
-        found = []
-        for system, sign, memory in zip(self.systems, SIGNS, self.memories, strict=True):
-            u, v, a = at + sign * self.change
-            state = State(time, u, v, a, memory)
-            found.append(system.accelerate(system.for_step(state).unbalanced(state.u, state.v, time)))
-        return np.asarray(0.5 * (found[0] - found[1]))
 
 
 class SensitiveEsdirk(Esdirk):
@@ -115,14 +98,17 @@ class SensitiveEsdirk(Esdirk):
         """Take a parameter's changes over a step; return their stages, (3, 7, n, 3)."""
         own, h = np.array(step.stages[1:4]), step.h
         tables, c1, start = np.zeros_like(own), 1.0 / (GAMMA * h), float(step.stages.time[0])
-        if bent:  # what begins here accelerates either side
-            one.change[2] = one.accelerated(own[:, 0], start)
-        tables[:, 0] = one.change
         ends = zip(one.systems, (own[:, 0] + one.change, own[:, 0] - one.change), one.memories, strict=True)
-        sides = [EsdirkStep(system, State(start, u, v, a, memory), h) for system, (u, v, a), memory in ends]
+        sides = [EsdirkStep(of, State(start, u, v, a, memory), h) for of, (u, v, a), memory in ends]
+        if bent:  # what begins here accelerates either side
+            begun = ((side.system, side.state(0)) for side in sides)
+            forces = ((of, of.for_step(at).unbalanced(at.u, at.v, start)) for of, at in begun)
+            high, low = (of.accelerate(force) for of, force in forces)
+            one.change[2] = 0.5 * (high - low)
+        tables[:, 0] = one.change
         for i in range(1, len(STAGES)):
             u, v = (tables[k, 0] + h * np.tensordot(STAGES[i, :i], tables[k + 1, :i], 1) for k in (0, 1))
-            inside, base = [side.in_stage(i) for side in sides], (u + v / c1, v)
+            inside, base = [side.in_stage(i) for side in sides], np.array([u + v / c1, v])
             tables[0, i] = base[0] + np.tensordot(GUESSES[i, :i], tables[2, :i], 1) / c1**2
             tables[:, i] = self._corrected(one, step, i, inside, base, tables[0, i])
             for side, system, sign in zip(sides, inside, SIGNS, strict=True):
@@ -132,13 +118,7 @@ class SensitiveEsdirk(Esdirk):
         return tables
 
     def _corrected(
-        self,
-        one: Sided,
-        step: EsdirkStep,
-        i: int,
-        inside: Sequence[System],
-        base: tuple[np.ndarray, np.ndarray],
-        change: np.ndarray,
+        self, one: Sided, step: EsdirkStep, i: int, inside: Sequence[System], base: Change, change: Change
     ) -> Change:
         """Return a stage's changes, from a guess of its first; base: û and v̂ of its equation. Raises
         StepFailed."""
@@ -147,7 +127,9 @@ class SensitiveEsdirk(Esdirk):
         for _ in range(CORRECTIONS):
             moved = change - base[0]
             whole = np.array([change, base[1] + c1 * moved, c1**2 * moved])
-            residual = self.system.problem.reduce(one.residual(inside, at, whole, time))
+            sides = zip(inside, (at + whole, at - whole), strict=True)
+            high, low = (of.momentum(a) - of.unbalanced(u, v, time) for of, (u, v, a) in sides)
+            residual = self.system.problem.reduce(0.5 * (high - low))
             if (correction := self._newton.correction(residual)) is None:
                 equation = StepEquation(step.in_stage(i), time, at[0], at[1], (c1**2, c1))
                 self._newton.renew(equation, at[0])

@@ -101,7 +101,7 @@ class LatticeObserver:
                 self._fill(row, samples, i)
             return rows
         loads = system.problem.loads.dead[None]
-        if system.working:
+        if system.nonconservative:
             loads = np.array([system.external(*at) for at in zip(samples.u, samples.time, strict=True)])
         observe(samples.u, samples.v, samples.a, loads, self._observed, rows)
         return rows

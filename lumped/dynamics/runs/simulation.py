@@ -25,7 +25,7 @@ from sheetbench.answers.history import History
 from sheetbench.choices import INTEGRATOR
 from sheetbench.clock import now
 from sheetbench.numerics.time.method import Advance
-from sheetbench.runs.record import Recipe, parted, record
+from sheetbench.runs.record import Recipe, record, split_options
 from sheetbench.scenes import AnyScene, scene_of
 from sheetbench.scenes.objects.quantities import require_positive
 
@@ -97,7 +97,7 @@ def simulate(
     >>> history.status, float(history.time[-1])
     (<Status.CONVERGED: 'converged'>, 0.02)
     """
-    keeping, options = parted(options)
+    keeping, options = split_options(options)
     require_integrator(integrator)
     for name, value in {"duration": duration, "step": step, "every": every}.items():
         require_positive(name, value, "s")

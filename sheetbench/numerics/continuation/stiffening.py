@@ -34,7 +34,7 @@ LARGEST_FACTOR, SMALLEST_FACTOR = 30.0, 1.05  # of the penalties, from stage to 
 NARROW = 0.8  # share of its area that a patch along a line or around a point has left after the first stage
 POINT, LINE = 1 / 2, 2 / 3  # powers of 1/k that depths of patches are like
 REACH = 0.1  # largest displacement of the first linear step; longer ones lead around a round obstacle
-LOOSE, CLOSE, CLOSER = 0.05, 0.01, 3e-3  # residuals at which soft load steps end, and stages but the last
+SOFT_STEPS, STAGES, CELL_STAGES = 0.05, 0.01, 3e-3  # residuals at which load steps and early stages end
 PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
 WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
 FAR = 10.0  # sizes from rest and beyond all prescribed motions: out of reach
@@ -79,7 +79,7 @@ def softest(structure: Structure[State, Forces]) -> float:
     return min(share for share in shares if share > 0.0)
 
 
-def stiffened(
+def trace_with_penalties(
     path: Path[State, Forces],
     trace: Callable[[Path[State, Forces]], Fault | None],
     near: Start[State] | None = None,
@@ -98,12 +98,12 @@ def stiffened(
         soften(contacts, share)
         planes = all(math.isinf(one.obstacle.radius) for one in contacts)
         reach = limits.first_reach if planes else min(limits.first_reach, REACH)
-        path.begin(replace(limits, careful_after=limits.in_all, tolerance=LOOSE, first_reach=reach))
+        path.begin(replace(limits, careful_after=limits.in_all, tolerance=SOFT_STEPS, first_reach=reach))
         ended = trace(path)
         path.limits = limits
         if ended is None:
             path.forget()
-            ended = _raised(path, share)
+            ended = _raise_penalties(path, share)
         if ended is None or share == 1.0 or down is not None:
             break
         share = min(1.0, 30.0 * share)
@@ -127,15 +127,15 @@ def stiffened(
 
 
 def touched(path: Path[State, Forces]) -> tuple[float, float]:
-    """Return the area in contact [m²], and the share that contacts bear of the forces in balance, which
-    stresses at rest may be most of."""
+    """Return the area in contact [m²], and the contacts' share of the forces in balance, most of which may
+    be stresses at rest."""
     at, size = path.structure.configuration(path.state, 1.0), path.structure.forces(path.state, 1.0).size
     states = [one.report(at)[0] for one in path.structure.contacts]
     borne = sum(one.area * one.pressure for one in states)
     return sum(one.area for one in states), min(1.0, borne / (size or 1.0))
 
 
-def _raised(path: Path[State, Forces], share: float) -> Fault | None:
+def _raise_penalties(path: Path[State, Forces], share: float) -> Fault | None:
     """Raise the penalties from a share to their full stiffness; return the fault of an earlier end."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
@@ -147,18 +147,18 @@ def _raised(path: Path[State, Forces], share: float) -> Fault | None:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
         soften(structure.contacts, target)
         shrunk = (share / target) ** power
-        close = 0.0 if target == 1.0 else CLOSER * borne if within_cells else CLOSE
+        close = 0.0 if target == 1.0 else CELL_STAGES * borne if within_cells else STAGES
         try:
             beyond = (1.0 - shrunk) / (1.0 / last - 1.0) if last and narrow else 0.0
             state, size = structure.restarted(path.state, before, beyond)
-            found = newton(path, Start(state, 1.0, 1.0, size), close)
-            require_way(path, found[0], 1.0)
+            solution = newton(path, Start(state, 1.0, 1.0, size), close)
+            require_way(path, solution[0], 1.0)
         except LoadStepFailed as failure:
             factor, before = (target / share) ** 0.5, path.state
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:
                 return Fault(failure.status, f"contact could not be stiffened: {failure}")
             continue
-        before, (path.state, path.factor) = path.state, found
+        before, (path.state, path.factor) = path.state, solution
         if (fault := path.inspect(path)) is not None or target == 1.0:
             return fault
         if not last:

@@ -52,8 +52,8 @@ class Structure(Protocol[State, Forces]):
         """Return a state at a load factor in the form for contacts."""
 
     def restarted(self, state: State, before: State, beyond: float) -> tuple[State, float]:
-        """Return the shape that is beyond a state by a share of the way to it from one before, at full load,
-        without forces of former penalties, and the size of its energy [J]."""
+        """Return the state at full load extrapolated from an earlier state through a later one by a share of
+        their distance, without forces of former penalties, and the size of its energy [J]."""
         return state, 0.0
 
     def rest(self) -> State:

@@ -26,7 +26,7 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton, predicted
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Progress, Settle
 from sheetbench.numerics.continuation.stability import stability
-from sheetbench.numerics.continuation.stiffening import reaches, require_way, stiffened
+from sheetbench.numerics.continuation.stiffening import reaches, require_way, trace_with_penalties
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
@@ -56,7 +56,7 @@ def trace_path(
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
         touching = structure.contacts and reaches(structure)
-        fault = stiffened(path, _trace, near) if touching else _trace(path, near)
+        fault = trace_with_penalties(path, _trace, near) if touching else _trace(path, near)
         path.fault = fault
         path.status, note = fault or stability(path)
         if buckled and settle is not None and fault is None and path.status is Status.UNSTABLE:

@@ -27,7 +27,7 @@ class StepFailed(ArithmeticError):
     """A time step without a solution; the text is the reason."""
 
 
-class Remembering:
+class Resumable:
     """Base of objects with attributes that a resumed run needs. remembered: their names."""
 
     remembered: ClassVar[tuple[str, ...]] = ()
@@ -44,7 +44,7 @@ class Remembering:
 
 
 @dataclass
-class Controller(Remembering):
+class Controller(Resumable):
     """Control of the steps of one integrator. order: p. growth: largest ratio of consecutive lengths. band:
     of r, in which the length is kept. step: length of the next trial [s]. floored: number of steps accepted
     in spite of their error. rejected: number of repeated steps."""

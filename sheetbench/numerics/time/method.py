@@ -9,7 +9,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from sheetbench.numerics.time.controller import Controller, Remembering, StepFailed
+from sheetbench.numerics.time.controller import Controller, Resumable, StepFailed
 
 __all__ = ["Advance", "AnyState", "MotionMethod", "StepFailed"]
 
@@ -26,7 +26,7 @@ class Advance(Generic[AnyState]):
     steps: int = 1
 
 
-class MotionMethod(Remembering, ABC, Generic[AnyState]):
+class MotionMethod(Resumable, ABC, Generic[AnyState]):
     """An integrator of a model's motion.
 
     state: the class of its states. adapts: whether it chooses its steps by their error, with `control`. span:

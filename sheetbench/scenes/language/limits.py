@@ -47,7 +47,7 @@ INSTEAD = {  # by the words that are often written: the feature of sheetbench
 WISHES = {word: sentence for words, sentence in INSTEAD.items() for word in words.split()}
 
 
-def wish(word: str) -> str | None:
+def unsupported_note(word: str) -> str | None:
     """Return the sentence about a key or a kind that is not modelled, with the page, else None."""
     sentence = WISHES.get(word.lower().replace("-", "_"))
     return f"{sentence} ({PAGE})" if sentence else None

@@ -13,7 +13,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from sheetbench.errors import BadInput
-from sheetbench.scenes.language.limits import wish
+from sheetbench.scenes.language.limits import unsupported_note
 from sheetbench.scenes.language.schema import branches, json_schema, kind
 from sheetbench.scenes.language.units import quantity
 
@@ -36,7 +36,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str | None:
     return by_lower[near[0]] if near else None
 
 
-def shown(value: Any) -> str:
+def as_written(value: Any) -> str:
     """Return a value as it was written, shortened if it is long."""
     return _SHORT.repr(value)
 
@@ -62,10 +62,10 @@ def _is_consequence(fault: Any) -> bool:
 def _sentence(fault: Any, schema: dict[str, Any]) -> str:
     where, nodes = _locate(fault["loc"], schema)
     key, value, facts = in_keys(where), fault["input"], fault.get("ctx", {})
-    given = f"{key} = {shown(value)}"
+    given = f"{key} = {as_written(value)}"
     match fault["type"]:
         case "extra_forbidden":
-            if not_modelled := wish(str(where[-1])):
+            if not_modelled := unsupported_note(str(where[-1])):
                 return f"{key}: {not_modelled}"
             keys = _keys(_locate(fault["loc"][:-1], schema)[1])
             near = did_you_mean(str(where[-1]), keys)
@@ -83,7 +83,7 @@ def _sentence(fault: Any, schema: dict[str, Any]) -> str:
             return f"{given}: must be {facts['expected_tags'].replace(chr(39), '').replace(', ', ' or ')}"
         case "union_tag_invalid":
             tag = facts["tag"]
-            return f"{key}: kind = {shown(tag)}: {wish(str(tag)) or _choose(tag, nodes)}"
+            return f"{key}: kind = {as_written(tag)}: {unsupported_note(str(tag)) or _choose(tag, nodes)}"
         case "literal_error":
             return f"{given}: {_choose(value, nodes)}"
         case "float_type" if isinstance(value, str) and (unit := unit_at(fault["loc"], schema)) is not None:

@@ -21,7 +21,7 @@ from sheetbench.scenes.objects.orthotropy import in_own_axes
 from sheetbench.scenes.objects.patches import Patch
 from sheetbench.scenes.objects.shapes import COINCIDENT, straight_sides
 
-FINE = 33  # lines a side; between them a taper has its mean thickness
+TAPER_LINES = 33  # lines a side; between them a taper has its mean thickness
 LEAST_SHARE = 1e-12  # of a cell's area, below which a part is rounding
 
 
@@ -147,14 +147,14 @@ def mass_of(scene: SceneFields) -> float:
     sheet = scene.sheet
     if scene.homogeneous:
         return float(of_sheet(scene).per_area * area_in(scene, None))
-    x, y = (np.linspace(0.0, length, FINE) for length in sheet.lengths)
+    x, y = (np.linspace(0.0, length, TAPER_LINES) for length in sheet.lengths)
     per_area = sum(part.share * part.constants.per_area for part in parts_between(scene, x, y))
     if scene.pierced:
         per_area *= shares_of(scene.region, x, y)
     return float(np.diff(y) @ per_area @ np.diff(x))
 
 
-def carried(scene: SceneFields) -> float:
+def payload_mass(scene: SceneFields) -> float:
     """Return the mass [kg] of all payloads."""
     return sum(payload.mass for payload in scene.masses)
 

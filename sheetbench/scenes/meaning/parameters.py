@@ -22,7 +22,7 @@ actuatorN.x, y, z, curvatureJ, bending_stiffness      of the scene's Nth [[actua
 import re
 from contextlib import suppress
 from functools import cache
-from itertools import chain, product
+from itertools import product
 from math import inf, isfinite, pi
 from typing import Any, NamedTuple
 
@@ -40,31 +40,29 @@ FIBRES = ("young_1", "young_2", "poisson_12", "shear_12", "shear_13", "shear_23"
 NAMES = [*MATERIAL, *FIBRES, "share_N", "time_N", "thickness", "patchN.KEY", "curvature_EDGE", "tilt_EDGE"]
 NAMES += ["drag", "massN", "obstacleN.KEY", "natural.KEY", "patchN.natural.KEY", "gravity.z", "loadN.KEY"]
 NAMES += ["supportN.z", "actuatorN.KEY"]
-PLACES = {  # by patterns of names, without edges' parameters; numbers count from 1
-    "|".join((*MATERIAL, *FIBRES, *OF_LAWS)): r"material.\g<0>",
-    "thickness": "sheet.thickness",
-    "drag": "air.drag",
-    r"(share|time)_(\d+)": r"material.relaxation.\2.\1",
-    r"mass(\d+)": r"masses.\1.mass",
-    rf"patch(\d+)\.({'|'.join(CONSTANTS)})": r"patches.\1.\2",
-    rf"layer(\d+)\.({'|'.join((*MATERIAL[:3], *FIBRES))})": r"layers.\1.\2",
-    r"obstacle(\d+)\.([xyz])": r"obstacles.\1.position.\2",
-    r"obstacle(\d+)\.(radius|friction)": r"obstacles.\1.\2",
-    r"natural\.e(xx|yy|xy)": r"natural.strain.\1",
-    r"natural\.k(xx|yy|xy)": r"natural.curvature.\1",
-    r"natural\.pretension\.([xy])": r"natural.pretension.\1",
-    r"patch(\d+)\.natural\.e(xx|yy|xy)": r"patches.\1.natural.strain.\2",
-    r"patch(\d+)\.natural\.k(xx|yy|xy)": r"patches.\1.natural.curvature.\2",
-    r"temperature\.(change|gradient)": r"temperature.\1",
-    r"gravity\.([xyz])": r"gravity.acceleration.\1",
-    r"load(\d+)\.(force|force_per_length|force_per_area)\.([xyz])": r"loads.\1.\2.\3",
-    r"load(\d+)\.at\.([xy])": r"loads.\1.at.\2",
-    r"load(\d+)\.(value|moment_per_length)": r"loads.\1.\2",
-    r"support(\d+)\.([xyz])": r"supports.\1.motion.displacement.last.\2",
-    r"actuator(\d+)\.([xyz])": r"actuators.\1.displacement.last.\2",
-    r"actuator(\d+)\.curvature(\d+)": r"actuators.\1.curvature.\2",
-    r"actuator(\d+)\.bending_stiffness": r"actuators.\1.bending_stiffness",
-}
+FORCES, SYMMETRIC = ("force", "force_per_length", "force_per_area"), ("xx", "yy", "xy")
+# the place of a parameter in a scene by its name, without edges' parameters; N: a number, from 1
+PLACES = {key: f"material.{key}" for key in (*MATERIAL, *FIBRES, *OF_LAWS)}
+PLACES |= {"thickness": "sheet.thickness", "drag": "air.drag", "massN": "masses.N.mass"}
+PLACES |= {f"{key}_N": f"material.relaxation.N.{key}" for key in ("share", "time")}
+PLACES |= {"actuatorN.curvatureN": "actuators.N.curvature.N"}
+for keys, places in (
+    (CONSTANTS, {"patchN.": "patches.N."}),
+    ((*MATERIAL[:3], *FIBRES), {"layerN.": "layers.N."}),
+    (("radius", "friction"), {"obstacleN.": "obstacles.N."}),
+    (SYMMETRIC, {"natural.e": "natural.strain.", "natural.k": "natural.curvature."}),
+    (SYMMETRIC, {"patchN.natural.e": "patches.N.natural.strain."}),
+    (SYMMETRIC, {"patchN.natural.k": "patches.N.natural.curvature."}),
+    (("change", "gradient"), {"temperature.": "temperature."}),
+    ("xyz", {"obstacleN.": "obstacles.N.position.", "gravity.": "gravity.acceleration."}),
+    ("xyz", {f"loadN.{key}.": f"loads.N.{key}." for key in FORCES}),
+    ("xy", {"natural.pretension.": "natural.pretension.", "loadN.at.": "loads.N.at."}),
+    (("value", "moment_per_length"), {"loadN.": "loads.N."}),
+    ("xyz", {"supportN.": "supports.N.motion.displacement.last."}),
+    ("xyz", {"actuatorN.": "actuators.N.displacement.last."}),
+    (("bending_stiffness",), {"actuatorN.": "actuators.N."}),
+):
+    PLACES |= {name + key: place + key for name, place in places.items() for key in keys}
 COMPONENTS = {"x": 0, "y": 1, "z": 2, "xx": 0, "yy": 1, "xy": 2, "last": -1}
 UNITS = {  # other keys have none
     **dict.fromkeys(("young", "young_1", "young_2", "shear_12", "shear_13", "shear_23"), "Pa"),
@@ -81,9 +79,10 @@ BOUNDS = {  # others are above 0
     "position": (-inf, inf),
     **dict.fromkeys(("c2", "c3", "change", "gradient"), (-inf, inf)),
     "strain": (-LARGEST_STRAIN, LARGEST_STRAIN),
-    **dict.fromkeys(("acceleration", "force", "force_per_length", "force_per_area", "at"), (-inf, inf)),
+    **dict.fromkeys(("acceleration", "at", *FORCES), (-inf, inf)),
     **dict.fromkeys(("value", "pretension", "moment_per_length", "displacement"), (-inf, inf)),
 }
+NUMBER = re.compile(r"\d+")
 OVER_TIME = re.compile(r"damping_|loss_factor|drag|share_|time_|obstacle\d+\.friction")
 Path = tuple[str | int, ...]  # keys, and numbers in lists
 
@@ -118,28 +117,21 @@ def parameter(scene: SceneFields, name: str) -> Parameter:
 
 def names_of(scene: SceneFields) -> list[str]:
     """Return the names of all parameters that the scene has and an answer at rest depends on."""
-    lists = [getattr(scene, key) for key in LISTS]
+    lists = [scene.material.relaxation, *(getattr(scene, key) for key in LISTS)]
     joints = [getattr(one, "segments", 0) for one in scene.actuators]
-    most = max(*map(len, lists), len(scene.material.relaxation), *joints, 1)
-    ends = [f"{key}_{edge}" for key in ("curvature", "tilt") for edge in EDGES]
-    there = (_numbered(key, most) for key, place in PLACES.items() if getattr(scene, place.split(".")[0]))
-    names = []
-    for name in (*chain.from_iterable(there), *ends):
+    names, numbers = list[str](), range(1, 1 + max(*map(len, lists), *joints))
+    there = (
+        key.replace("N", "{}").format(*each)
+        for key, place in PLACES.items()
+        if getattr(scene, place.split(".")[0])
+        for each in product(numbers, repeat=key.count("N"))
+    )
+    for name in (*there, *(f"{key}_{edge}" for key in ("curvature", "tilt") for edge in EDGES)):
         with suppress(BadInput, TypeError):
             finite = isfinite(parameter(scene, name).value)  # a plane's radius is not
             if finite and not OVER_TIME.match(name):
                 names.append(name)
     return names
-
-
-@cache
-def _numbered(pattern: str, most: int) -> tuple[str, ...]:
-    """Return the names that a pattern of PLACES stands for, with numbers up to `most`."""
-    numbers = [str(n + 1) for n in range(most)]
-    parts = re.findall(r"\(\\d\+\)|\(.*?\)|\[.*?\]|[^(\[]+", pattern.replace(r"\.", "."))
-    words = [part.removeprefix("(").removesuffix(")") for part in parts]
-    choices = [numbers if w == r"\d+" else [*w[1:-1]] if w[0] == "[" else w.split("|") for w in words]
-    return tuple(map("".join, product(*choices)))
 
 
 def put(scene: AScene, name: str, value: float, checked: bool = True) -> AScene:
@@ -179,11 +171,10 @@ def _paths(scene: SceneFields, name: str) -> list[Path]:
 @cache
 def _place(name: str) -> Path | None:
     """Return the path of PLACES to a parameter of any scene, None if there is none."""
-    for pattern, place in PLACES.items():
-        if at := re.fullmatch(pattern, name):
-            parts = at.expand(place).split(".")
-            return tuple(int(p) - 1 if p.isdecimal() else COMPONENTS.get(p, p) for p in parts)
-    return None
+    names, numbers = (name, *(NUMBER.sub("N", name, most) for most in (1, 2))), iter(NUMBER.findall(name))
+    if (place := next((PLACES[key] for key in names if key in PLACES), None)) is None:
+        return None
+    return tuple(int(next(numbers)) - 1 if p == "N" else COMPONENTS.get(p, p) for p in place.split("."))
 
 
 def _places(scene: SceneFields, name: str) -> list[Path]:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes.meaning.composition import carried, mass_of
+from sheetbench.scenes.meaning.composition import mass_of, payload_mass
 from sheetbench.scenes.meaning.distances import nearest
 from sheetbench.scenes.meaning.natural_state import TENSOR, Source, expansion_of, plies_of, sources_of
 from sheetbench.scenes.meaning.region import area_in, resultant
@@ -53,7 +53,7 @@ def in_words(scene: SceneFields) -> Iterator[tuple[str, str]]:
         yield f"mass {n}", _payload(payload, sheet)
     for name, natural in natural_in_words(scene):
         yield f"{name}, natural" if name.startswith("patch") else name, natural
-    yield "weight", _weight(scene, mass + carried(scene))
+    yield "weight", _weight(scene, mass + payload_mass(scene))
     if scene.air is not None:
         share = 100.0 * scene.air.carried_along(sheet) * sheet.length_x * sheet.length_y / mass
         drag = f"drag of {scene.air.coefficient:.3g} kg/m³ · v² per area, v along the normal; none at rest"

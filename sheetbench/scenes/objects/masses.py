@@ -47,6 +47,6 @@ class Mass(Frozen):
 
     @property
     def of_director(self) -> np.ndarray:
-        """Return the inertia against each component of ḋ, (3,) [kg m²]."""
+        """Return the director's moment of inertia by component, (3,) [kg m²]."""
         x, y, _ = self.inertia or (0.0, 0.0, 0.0)
         return np.array([y, x, max(x, y)])

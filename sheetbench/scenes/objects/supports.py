@@ -79,7 +79,7 @@ class _Support(_EdgeSupport):
 
 
 class Clamped(_Support):
-    """Mid-surface and its normal held."""
+    """A clamp: mid-surface and its normal are held."""
 
     kind: Literal["clamped"] = Field(default="clamped", kw_only=True)
     tilt: Angle = 0.0
@@ -94,7 +94,7 @@ class Clamped(_Support):
 
 
 class Hinged(_Support):
-    """Mid-surface held, free to turn: about the edge and, the soft simple support, along it too."""
+    """A hinge: mid-surface held, free to turn about the edge and, the soft simple support, along it too."""
 
     kind: Literal["hinged"] = Field(default="hinged", kw_only=True)
     twist: Literal["free", "held"] = Field(default="free", kw_only=True)
@@ -107,7 +107,7 @@ class Hinged(_Support):
 
 
 class Held(_Support):
-    """Some components of the mid-surface's displacement held, free to turn."""
+    """A support of some components of the mid-surface's displacement, free to turn."""
 
     kind: Literal["held"] = Field(default="held", kw_only=True)
     components: Components
@@ -115,7 +115,7 @@ class Held(_Support):
 
 
 class Point(Frozen):
-    """Some components of the mid-surface's displacement held at one point, free to turn: a pin or a tack."""
+    """A pin or a tack: some components of the mid-surface's displacement held at one point, free to turn."""
 
     kind: Literal["point"] = Field(default="point", kw_only=True)
     at: Annotated[PlanPoint, Unit("m")]
@@ -133,7 +133,7 @@ class Point(Frozen):
 
 
 class Curved(_EdgeSupport):
-    """Clamped to a rigid rod bent in the plane of the edge and z."""
+    """A clamp on a rigid rod bent in the plane of the edge and z."""
 
     kind: Literal["curved"] = Field(default="curved", kw_only=True)
     curvature: Annotated[Number, Unit("1/m")]

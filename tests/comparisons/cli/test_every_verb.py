@@ -149,10 +149,10 @@ def test_no_pictures_leaves_out_every_picture(here, monkeypatch):
 
 @pytest.mark.parametrize("verb", VERBS)
 def test_every_verb_can_be_quiet_and_without_pictures(verb, monkeypatch, capsys):
-    def speaking(quiet, all_notes):
+    def verbosity(quiet, all_notes):
         raise BadInput("a request to be quiet")
 
-    monkeypatch.setattr(console, "speaking", speaking)  # the verb itself does not begin
+    monkeypatch.setattr(console, "verbosity", verbosity)  # the verb itself does not begin
     needed = []
     for one in verb_group().commands[verb].params:
         if one.required:

@@ -1,7 +1,5 @@
 """Files for other codes, read back: mesh, masses, holds, loads; MuJoCo's forces are ours, SOFA's springs."""
 
-from __future__ import annotations
-
 import json
 import runpy
 from xml.etree import ElementTree

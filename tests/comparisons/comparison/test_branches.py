@@ -36,7 +36,7 @@ def test_the_model_that_has_both_equilibria_is_shown_on_the_others_branch():
 
 def test_models_that_stay_on_different_branches_get_no_error(monkeypatch):
     """Neither begun in the other's shape, the lattice is 70 % off, on any grid."""
-    monkeypatch.setattr("comparisons.comparison.comparison.branches.joined", lambda *_: None)
+    monkeypatch.setattr("comparisons.comparison.comparison.branches.on_one_branch", lambda *_: None)
     found = compare(BENT, Lattice(9), elements=8, companion=False)
     lattice, shell = found.solutions
     assert lattice.status is shell.status is Status.CONVERGED
@@ -102,7 +102,7 @@ def test_an_obstacle_that_one_model_alone_touches_is_no_other_branch(monkeypatch
     found = said(0.01, fine(0.0101), bar=0.01, shell=felt)
     assert "200 % apart: obstacle 1: only one of them touches it" in found and "branch" not in found
     both = solution(SCENE, size=0.01), solution(SCENE, "shell", **felt)
-    assert branches.joined(resolve(SCENE, LATTICE), None, *both) is None
+    assert branches.on_one_branch(resolve(SCENE, LATTICE), None, *both) is None
 
 
 def test_another_branch_stays_where_it_is():

@@ -224,7 +224,7 @@ def test_no_picture_where_the_trial_of_drawing_does_not_start_or_end(fault, monk
 
     monkeypatch.setattr(subprocess, "run", run)
     rendering._working_window.cache_clear()
-    assert "off-screen drawing does not work" in (rendering.why_not() or "")
+    assert "off-screen drawing does not work" in (rendering.unavailable_reason() or "")
     rendering._working_window.cache_clear()
 
 

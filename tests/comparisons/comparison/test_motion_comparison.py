@@ -9,7 +9,7 @@ import pytest
 from fake_solutions import history
 
 import sheetbench as sb
-from comparisons.comparison.measures import difference, extrema, measured_alike
+from comparisons.comparison.measures import difference, extrema, matching_measures
 from comparisons.comparison.motion import compare_motion
 from comparisons.comparison.motion_answer import MotionComparison
 from comparisons.models.spec import Lattice
@@ -30,7 +30,7 @@ def swing(frequency, damping, size=1.0):
 
 def test_period_and_decay_of_a_damped_swing_are_its_own():
     """Extrema of 1 − e^(−at) cos ωt lie half a period apart; parabolas place them to 1e-4 of it."""
-    measured, _ = measured_alike(swing(5.0, 0.05), swing(5.0, 0.05))
+    measured, _ = matching_measures(swing(5.0, 0.05), swing(5.0, 0.05))
     assert measured.period == pytest.approx(0.2, rel=1e-4)
     assert measured.decay == pytest.approx(2.0 * np.pi * 0.05 / np.sqrt(1.0 - 0.05**2), rel=1e-3)
     assert measured.damping == pytest.approx(0.05, rel=1e-3)
@@ -52,7 +52,7 @@ def test_the_references_row_is_of_the_extrema_that_the_other_row_is_of():
     still, (one, other) = np.linspace(0.0, 1.0, 1001), (swing(5.0, 0.05), swing(5.0, 0.05))
     late = np.interp(still - 0.5 * np.clip(still - 0.25, 0.0, None), other.time, one.probes["P"][:, 2])
     one.probes["P"][:, 2] = late
-    mine, truth = measured_alike(one, other)
+    mine, truth = matching_measures(one, other)
     assert None not in (mine.period, truth.period)
     assert abs(mine.last - truth.last) < 0.05  # half the way from one to the next
     assert difference(one, other)["period"] == pytest.approx(mine.period / truth.period - 1.0, rel=1e-9)

@@ -10,7 +10,7 @@ import fem_reference
 import lumped
 from comparisons.comparison.branches import shape
 from comparisons.comparison.comparison import compare
-from comparisons.comparison.settle import CREEPING, LONG, frequency, settled, solved_from_motion
+from comparisons.comparison.settle import CREEPING, LONG, frequency, shape_after_motion, solved_from_motion
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
@@ -93,7 +93,7 @@ def test_a_thin_rag_is_at_rest_on_a_ball_by_statics():
 def test_a_thick_rag_comes_to_rest_on_a_ball():
     """The lattice of 17 masses leaves the symmetry by rounding. Statics of the shell leave the shape at the
     end of its motion."""
-    _, at_rest, fault = settled(resolve(THICK, Elements("shell", 8)))
+    _, at_rest, fault = shape_after_motion(resolve(THICK, Elements("shell", 8)))
     across, along, corner = at_rest(np.array([[0.125, 0.25], [0.25, 0.125], [0.25, 0.25]]))[:, 2]
     assert not fault and across == pytest.approx(along, rel=1e-6)
     assert corner == pytest.approx(-0.156, rel=0.02)
@@ -138,7 +138,7 @@ def test_models_that_begin_flat_and_options_without_effect_are_refused(capsys):
 def test_a_motion_that_ends_early_is_said(monkeypatch):
     text = "its motion did not come to rest: inverted: refine the grid"
     early = lambda *_, **__: (None, lambda points: np.zeros((len(points), 3)), text)  # noqa: E731
-    monkeypatch.setattr("comparisons.comparison.settle.settled", early)
+    monkeypatch.setattr("comparisons.comparison.settle.shape_after_motion", early)
     found = compare("one-edge-clamped", Lattice(3), elements=2, settle=True)
     for one in found.solutions:
         assert "did not come to rest" in one.message

@@ -14,10 +14,10 @@ import fem_reference
 import lumped
 from comparisons.identification import fit as search
 from comparisons.identification import surface
-from comparisons.identification.fit import Fit, nearest
+from comparisons.identification.fit import Fit, best_search
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements, Surface, read
-from comparisons.identification.model import Model, NotReached, Prediction, lattice_model
+from comparisons.identification.model import Model, NoAnswer, Prediction, lattice_model
 from comparisons.identification.residuals import UNLIKELY, explained, outliers, runs
 from comparisons.identification.unknowns import Unknown, unknown
 from comparisons.models.grading import lines_on_shapes
@@ -132,7 +132,7 @@ def test_a_scanned_surface(tmp_path):
 
 
 def test_no_answer_with_the_scenes_own_values():
-    with pytest.raises(NotReached):
+    with pytest.raises(NoAnswer):
         identify(with_material(SCENE, young=1e3), Displacements(POINTS, solved(SCENE)), ["young"])
 
 
@@ -176,7 +176,7 @@ def test_a_growing_part_of_a_motion_leads_past_minima_that_are_out_of_step():
     measured = replace(empty, displacement=noisy(swing(1.0, empty), 1))
     fit = fit_of(swing, measured, 0.7)
     assert abs(fit.search(np.zeros(1)).x[0] - log(1 / 0.7)) > 0.05
-    best, tried = nearest(fit, lambda one: one.noise < 0.05, anything)
+    best, tried = best_search(fit, lambda one: one.noise < 0.05, anything)
     assert best.x[0] == pytest.approx(log(1 / 0.7), abs=0.002) and tried == 1
 
 

@@ -10,7 +10,7 @@ from cases import POINTS, with_material
 import lumped
 from comparisons.identification.identification import identify
 from comparisons.identification.measurements import Displacements
-from comparisons.identification.residuals import on_grid
+from comparisons.identification.residuals import grid_notes
 from comparisons.models.spec import Lattice
 from sheetbench import scenes
 from sheetbench.errors import BadInput
@@ -78,7 +78,7 @@ def test_what_is_far_from_the_scene_rounded_or_done_already_is_said():
     assert not known.warnings and known.explained
     young = known.unknowns["young"]
     wide = {"young": replace(young, noise_interval=(0.999 * young.value, 1.001 * young.value))}
-    (given,), (chosen,) = (on_grid(wide, "lumped", True, grid) for grid in (None, (39, 17, 2)))
+    (given,), (chosen,) = (grid_notes(wide, "lumped", True, grid) for grid in (None, (39, 17, 2)))
     assert (
         "leave the grid to the fit" in given and "take more masses than the fit did, --lumped 77x33" in chosen
     )

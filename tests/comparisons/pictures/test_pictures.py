@@ -186,7 +186,7 @@ def test_the_option(tmp_path, capsys):
     capsys.readouterr()
 
 
-@pytest.mark.skipif(bool(offscreen.why_not()), reason="needs to draw off screen")
+@pytest.mark.skipif(bool(offscreen.unavailable_reason()), reason="needs to draw off screen")
 def test_a_comparison_of_a_sheet_that_hangs_low_fits_a_column(monkeypatch):
     monkeypatch.setattr(style, "PIXELS", 60)
     found = Comparison(SCENE, tuple(solution(SCENE, name, -0.5) for name in ("lumped", "shell")))
@@ -196,7 +196,7 @@ def test_a_comparison_of_a_sheet_that_hangs_low_fits_a_column(monkeypatch):
     assert comparing.DIFFERENCES(1.0)[0] > 0.2  # names of probes are read on it
 
 
-@pytest.mark.skipif(bool(offscreen.why_not()), reason="needs to draw off screen")
+@pytest.mark.skipif(bool(offscreen.unavailable_reason()), reason="needs to draw off screen")
 def test_the_camera_sees_an_obstacle_and_no_box_about_it():
     scene = load("napkin-on-ball")
     stage = Stage(scene, solution(scene), 1.0, 60)

@@ -9,7 +9,7 @@ from comparisons.comparison.crosscheck import crosscheck
 from comparisons.models.spec import Elements, Lattice
 from comparisons.sweep import columns
 from comparisons.sweep.differences import error
-from comparisons.sweep.limits import Limit, in_all, limit, motion_bar, pair, pairs
+from comparisons.sweep.limits import Limit, limit, motion_bar, pair, pairs, total_bar
 from comparisons.sweep.solved import Request, Solved, sweep
 from comparisons.tradeoff.statics import tradeoff
 from comparisons.tradeoff.trials import TrialSolves
@@ -103,13 +103,13 @@ def test_the_bar_of_a_motion_is_what_twice_the_mesh_and_twice_the_step_change():
 
     fine, longer = moved(8, 0.2), moved(8, 0.198)
     bars = motion_bar([fine, moved(4, 0.19)], longer)
-    assert bars == pytest.approx({"mesh": 0.05, "step": 0.01}) and in_all(bars) == pytest.approx(0.06)
+    assert bars == pytest.approx({"mesh": 0.05, "step": 0.01}) and total_bar(bars) == pytest.approx(0.06)
     assert motion_bar([fine, moved(4, 0.19, "diverged")], longer) == {"mesh": None, "step": bars["step"]}
     three = [moved(n, 0.2 - 0.64 / n**3) for n in (8, 6, 4)]  # of order 3, of which 2 counts
     pairs = (8, 6), (8, 4), (6, 4)
     error = 0.64 * max((m**-3 - n**-3) / ((8 / m) ** 2 - (8 / n) ** 2) for n, m in pairs)
     assert motion_bar(three, longer)["mesh"] == pytest.approx(1.35 * error / three[0].u.max())
-    assert in_all({"mesh": None, "step": 0.01}) is None and in_all({}) is None
+    assert total_bar({"mesh": None, "step": 0.01}) is None and total_bar({}) is None
 
 
 @pytest.mark.parametrize("share", [0.9, 1.1])

@@ -130,7 +130,7 @@ def moved(scene, solution):
 
 def from_flat(scene, monkeypatch):
     with monkeypatch.context() as patch:
-        patch.setattr(coarse_start, "FINE", 9)
+        patch.setattr(coarse_start, "COARSE_START_FROM", 9)
         return fem_reference.solve(scene, elements=8)
 
 
@@ -164,7 +164,7 @@ def test_a_sheet_with_a_hole_begins_at_a_coarse_mesh_without_rows_along_the_rim(
 @pytest.mark.parametrize(
     "where, name, value",
     [
-        (coarse_start, "plain", lambda path: False),  # it does not go straight
+        (coarse_start, "is_direct", lambda path: False),  # it does not go straight
         (coarse_start, "LIMITS", Limits(factorisations=2)),  # it takes long
         (
             statics,

@@ -17,7 +17,7 @@ from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import spread
 from fem_reference.surface.location import shares
 from fem_reference.surface.mesh import rectangle
-from fem_reference.surface.supports import Driven
+from fem_reference.surface.supports import PrescribedEdge
 from sheetbench import scenes
 from sheetbench.answers.solution import Status
 from sheetbench.numerics.continuation import pseudo_transient
@@ -103,7 +103,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     sheet = DiscreteShell(rectangle(scene.sheet, (12, 1), graded=False), scene)
     nodes = sheet.plan.nodes
     ends = np.flatnonzero(sheet.supports.position.any(axis=1))
-    closer = Driven(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
+    closer = PrescribedEdge(ends, nodes[ends], Shortening(shorter), np.ones(len(ends)))
     sheet.supports = replace(sheet.supports, turning=(closer,))
     point = np.array([at * SIDE, WIDTH / 2])
     element, value = shares(sheet.plan.mesh, point[None])

@@ -18,7 +18,7 @@ from fem_reference.verification import (
     verify,
 )
 from fem_reference.verification.cases import Case
-from fem_reference.verification.rows import absolutely, relatively
+from fem_reference.verification.rows import absolute_row, relative_row
 
 ELSEWHERE = ("locking-plate", "locking-shell", "strain-laws", "rubber")  # test_locking, test_strain_laws
 HEAVIEST = ("disc-bending", "disc-frequencies", "nafems-fv16", "end-shear")  # by night
@@ -109,12 +109,12 @@ def test_the_thin_clamped_plate_s_value_is_that_of_a_series():
 
 
 def test_relative_is_to_the_published_value_or_to_a_length():
-    assert relatively("q", "m", -2.0, "A 1900", -2.1, 0.1).relative == pytest.approx(0.05)
-    at_zero = relatively("q", "m", 0.0, "A 1900", 0.3, 0.1, scale=12.0)
+    assert relative_row("q", "m", -2.0, "A 1900", -2.1, 0.1).relative == pytest.approx(0.05)
+    at_zero = relative_row("q", "m", 0.0, "A 1900", 0.3, 0.1, scale=12.0)
     assert at_zero.relative == pytest.approx(0.025) and at_zero.passed
-    assert absolutely("order", "m", 3.0, "theory", 3.2, 0.15).relative is None
-    assert not absolutely("order", "m", 3.0, "theory", 3.2, 0.15).passed
-    assert not relatively("q", "m", 1.0, "A 1900", float("nan"), 0.1).passed
+    assert absolute_row("order", "m", 3.0, "theory", 3.2, 0.15).relative is None
+    assert not absolute_row("order", "m", 3.0, "theory", 3.2, 0.15).passed
+    assert not relative_row("q", "m", 1.0, "A 1900", float("nan"), 0.1).passed
 
 
 def test_document_has_the_promised_keys(capsys):
@@ -126,7 +126,7 @@ def test_document_has_the_promised_keys(capsys):
 
 
 def test_a_row_that_fails_leaves_with_3(monkeypatch, capsys):
-    row = relatively("w", "one", 1.0, "A 1900", 1.1, 0.05)
+    row = relative_row("w", "one", 1.0, "A 1900", 1.1, 0.05)
     monkeypatch.setitem(CASES, "wrong", Case("a wrong one", lambda: iter([row])))
     assert command("verify", "--case", "wrong", "--case", "patch") == 3
     printed, right = capsys.readouterr(), len(rows_of("patch"))

@@ -1,7 +1,5 @@
 """Maxwell branches of the lattice in motion: tangent, energy, the shell's motion."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

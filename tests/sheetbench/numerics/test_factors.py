@@ -8,7 +8,7 @@ import pytest
 from scipy.sparse import bsr_array, csr_matrix
 
 import lumped
-from lumped.statics.energy_descent import _disturbed
+from lumped.statics.energy_descent import _perturbed
 from lumped.statics.solver import solve_path
 from sheetbench import scenes
 from sheetbench.numerics import banded, direct
@@ -206,5 +206,5 @@ def test_factors_of_an_unstable_lattice_tell_its_negative_eigenvalues_and_lead_o
     problem = lumped.build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=(10, 8)))
     path = solve_path(problem)
     assert path.status == "unstable" and path.factor.negative == 1
-    beside = _disturbed(problem, path.state, path.factor, share=0.1)
+    beside = _perturbed(problem, path.state, path.factor, share=0.1)
     assert problem.potential(beside, 1.0) < problem.potential(path.state.u, 1.0)

@@ -1,7 +1,5 @@
 """Codes: files of results as pull requests bring them, trials that go on where they stopped, ladders."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -49,8 +47,8 @@ def test_stored_rows_have_the_published_numbers():
 
 def test_a_ladder_is_measured_against_the_reference_set(tmp_path, monkeypatch):
     monkeypatch.setattr(results, "RESULTS", tmp_path)
-    monkeypatch.setitem(models.LADDERS, "lattice", models.Ladder("lattice", "MIT", (Lattice(3), Lattice(5))))
-    models.climb("lattice", lambda _: None)
+    monkeypatch.setitem(models.SIZES, "lattice", models.Sizes("lattice", "MIT", (Lattice(3), Lattice(5))))
+    models.measure_sizes("lattice", lambda _: None)
     rows = read_results(tmp_path / "lattice.json").rows
     assert [row.recipe for row in rows] == ["3 × 3", "5 × 5"]
     assert rows[0].error > rows[1].error > 0.0 < rows[0].seconds
@@ -66,7 +64,7 @@ def test_rows_with_the_same_inputs_are_not_run_again(tmp_path, monkeypatch):
     recipes = [trials.Recipe(name, trials.ONE, keys=lambda _: {"tri_ke": 1.0}, squares=2) for name in "ab"]
     for module in (trials, results):
         monkeypatch.setattr(module, "RESULTS", tmp_path)
-    monkeypatch.setattr("comparisons.codes.setup.limit_error", lambda *_: 0.0)
+    monkeypatch.setattr("comparisons.codes.setup.limit_errors", lambda _: lambda _: 0.0)
     monkeypatch.setattr(trials, "CALIBRATED", {"thick": results.CASES["thick"]})
     monkeypatch.setattr(trials, "RECIPES", {"newton": recipes})
     said = []

@@ -82,7 +82,7 @@ def test_forces_and_tangents_at_a_time(time, factors, grid):
 def test_loads_without_a_history_are_one_constant_array():
     equations, rest = system(make_scene(loads=[{"kind": "point", "at": TIP, "force": [0.0, 0.0, 0.1]}]))
     loads = equations.problem.loads
-    assert loads.potential and not equations.working
+    assert loads.potential and not equations.nonconservative
     assert loads.force(rest.u, 0.3) is loads.dead
 
 

@@ -17,7 +17,7 @@ from fem_reference.surface.mesh import Plan
 from sheetbench.scenes import Scene
 
 
-def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+def payloads(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Yield for each payload its elements (k,) and masses of vectors: of the mid-surface (k, 9, 9) [kg], of
     the directors. The directors' are by component x, y and z, (3, k, 9, 9) [kg m²]."""
     for payload in scene.masses:
@@ -31,9 +31,9 @@ def carried(scene: Scene, plan: Plan) -> Iterator[tuple[np.ndarray, np.ndarray, 
         yield on, payload.mass * pairs, payload.of_director[:, None, None, None] * pairs
 
 
-def add_carried(scene: Scene, plan: Plan, masses: np.ndarray) -> None:
+def add_payloads(scene: Scene, plan: Plan, masses: np.ndarray) -> None:
     """Add the payloads to masses (m, 18, 3, 18, 3) of the positions, then the directors of all elements."""
-    for on, by_place, by_turn in carried(scene, plan):
+    for on, by_place, by_turn in payloads(scene, plan):
         for axis in range(3):
             masses[on, :9, axis, :9, axis] += by_place
             masses[on, 9:, axis, 9:, axis] += by_turn[axis]

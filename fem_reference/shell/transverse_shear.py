@@ -20,7 +20,7 @@ from fem_reference.surface.triad import Triad
 _ADJUGATE = np.array([[[0.0, 0.0], [0.0, 2.0]], [[2.0, 0.0], [0.0, 0.0]], [[0.0, -1.0], [-1.0, 0.0]]])  # by E
 
 
-def slant(poisson: float, strain: np.ndarray, leaning: np.ndarray) -> Triad:
+def shear_energy(poisson: float, strain: np.ndarray, leaning: np.ndarray) -> Triad:
     """Return W and derivatives by E and γ (…, 5), at E (…, 3) and γ (…, 2), in `Law.thickness`."""
     area, by_area, areas = determinant(strain)
     form = np.eye(2) + np.einsum("...k,kij->...ij", strain, _ADJUGATE)  # j² C⁻¹
@@ -35,7 +35,7 @@ def slant(poisson: float, strain: np.ndarray, leaning: np.ndarray) -> Triad:
     return square.power(-poisson / (1.0 - poisson)).times(of_leaning).times(cosine.power(-1.0))
 
 
-def linear(leaning: np.ndarray) -> Triad:
+def linear_shear_energy(leaning: np.ndarray) -> Triad:
     """Return ½ γ² and its derivatives by E and γ (…, 5)."""
     first, twice = np.zeros((*leaning.shape[:-1], 5)), np.zeros((*leaning.shape[:-1], 5, 5))
     first[..., 3:], twice[..., 3:, 3:] = leaning, np.eye(2)

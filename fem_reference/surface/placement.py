@@ -15,7 +15,7 @@ import numpy as np
 from skfem import MeshQuad
 
 from fem_reference.surface.borders import straight_parts
-from fem_reference.surface.mesh_points import NEAR
+from fem_reference.surface.mesh_points import ATOL
 
 if TYPE_CHECKING:
     from shapely import LineString
@@ -84,7 +84,7 @@ class CentredPlan(NamedTuple):
         from shapely.ops import substring
 
         middle = shapely.get_coordinates(shapely.centroid(borders))
-        shares = np.where(np.hypot(*middle.T) < NEAR, 1.0 / len(self.turns), self.first(middle))
+        shares = np.where(np.hypot(*middle.T) < ATOL, 1.0 / len(self.turns), self.first(middle))
         pairs = zip(borders, shares.tolist(), strict=True)
         in_sector = [substring(line, 0.0, share, normalized=True) for line, share in pairs if share]
         copies = [self.images(shapely.get_coordinates(line)).swapaxes(0, 1) for line in in_sector]
@@ -97,10 +97,10 @@ class CentredPlan(NamedTuple):
 
         plan_borders = shapely.union_all([self.region.boundary, self.inner])
         middle = shapely.line_interpolate_point(list(borders), 0.5, normalized=True)
-        cut, diagonal = np.asarray(shapely.distance(plan_borders, middle) > NEAR), np.full(len(borders), -1)
+        cut, diagonal = np.asarray(shapely.distance(plan_borders, middle) > ATOL), np.full(len(borders), -1)
         for number, normal in enumerate(self.mirrors):
             if np.all(normal):
-                diagonal[cut & (np.abs(shapely.get_coordinates(middle) @ normal) < NEAR)] = number
+                diagonal[cut & (np.abs(shapely.get_coordinates(middle) @ normal) < ATOL)] = number
         return cut, diagonal
 
     def unfolded(
@@ -112,7 +112,7 @@ class CentredPlan(NamedTuple):
         at, quads, triangles, across = part
         for number, normal in enumerate(self.mirrors):
             away = at @ normal
-            on = np.abs(away) < NEAR
+            on = np.abs(away) < ATOL
             at = np.where(on[:, None], at - away[:, None] * normal, at)
             image = np.where(on, np.arange(len(at)), len(at) + np.cumsum(~on) - 1)
             beyond = ~on[ends].all(axis=1)
@@ -133,7 +133,7 @@ class CentredPlan(NamedTuple):
 
         def moved(points: np.ndarray) -> np.ndarray:
             turned = points @ self.turn
-            on = np.abs(np.abs(turned) - half) < NEAR
+            on = np.abs(np.abs(turned) - half) < ATOL
             return self.centre + np.where(on, np.sign(turned) * half, turned)
 
         upright = np.linalg.det(self.turn) > 0.0

@@ -25,9 +25,11 @@ mesh to mesh as if by chance, and fall with order 1.0 to 3.3, 1.8 in the median 
 There p is no more than 2. Rims have sides in proportion to the number of elements from 8 on (`outlined`):
 meshes that divide a rim alike err alike, and agree.
 
-Nor is p larger than the smoothness of the solution gives: 1.5 over planes, where nodes touch and the border
-of contact lies between them; 1 with supports at points, which sink into a Mindlin sheet by the logarithm of
-the element's size; 2.5 with fibres, whose corners are more singular.
+Nor is p larger than the smoothness of the solution gives: 1.5 over planes, balls and boxes, where nodes touch
+and the border of contact lies between them, on points, and with re-entrant corners of the sheet or around a
+patch; 1 with re-entrant corners around a held part; 2 over cylinders; 2.5 with fibres, whose corners are
+more singular. Points that hold each other in the sheet's plane sink into it by the logarithm of the element's
+size, without a limit: p = 0.7 there bounds the distance from meshes of up to four times as many elements.
 
 η is the relative excess stiffness of a sheet that only twists, by the unresolved part of the layer
 (`edge_layer`): the meshes' answers differ as their unresolved parts do, and where all meshes miss it alike,
@@ -52,13 +54,14 @@ import numpy as np
 
 from fem_reference import solve
 from fem_reference.edge_layer import NOTHING, UnresolvedLayers, unresolved
-from fem_reference.surface.borders import has_lines
+from fem_reference.surface.borders import has_corners, has_lines
 from fem_reference.surface.mesh import Elements, divisions
 from sheetbench.answers.solution import Solution
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.objects.obstacles import Plane
-from sheetbench.scenes.objects.supports import Point
+from sheetbench.scenes.meaning.composition import own_patches
+from sheetbench.scenes.objects.obstacles import Cylinder
+from sheetbench.scenes.objects.supports import Point, place
 
 CAUTION = 3.0  # factor of e in the bar by two meshes
 LEAST_ORDER, ASSUMED_ORDER = 0.5, 2.0
@@ -66,18 +69,24 @@ BY_LAYER = 2.0  # loss of order where none of the layer is resolved
 TWIST = 0.3  # the largest share of η that counts
 MESHES = (1.0, 0.75, 0.5)  # elements, relative to the requested number
 ROUNDING = 1e-9  # relative to the largest answer
-IN_ROWS, FITTED = 3.0, 2.0  # largest order p on meshes of rows, and on others
-FIBRES, PLANE, HELD_POINT = 2.5, 1.5, 1.0  # where the solution is less smooth
+IN_ROWS, FITTED = 3.0, 2.0  # largest order p on meshes of rows, and on others or over a cylinder
+FIBRES, ROUGH, HELD_CORNER, PINNED = 2.5, 1.5, 1.0, 0.7  # where the solution is less smooth
 NEIGHBOURS = 0.35  # c
 
 
 def largest_order(scene: Scene) -> float:
     """Return the largest order p of a scene's meshes of quadratic elements."""
+    points = [support for support in scene.supports if isinstance(support, Point)]
+    others = [support for support in scene.supports if not isinstance(support, Point)]
+    parts = [shape for support in others if (shape := place(support)) is not None]
+    in_plane = sum(axis in "xy" for point in points for axis in point.components)
+    touched = any(not isinstance(obstacle, Cylinder) for obstacle in scene.obstacles)
     applies = {
-        FITTED: not has_lines(scene),
+        FITTED: not has_lines(scene) or scene.obstacles,
         FIBRES: scene.material.kind == "orthotropic",
-        PLANE: any(isinstance(obstacle, Plane) for obstacle in scene.obstacles),
-        HELD_POINT: any(isinstance(support, Point) for support in scene.supports),
+        ROUGH: touched or points or has_corners(scene, [patch.shape for patch in own_patches(scene)]),
+        HELD_CORNER: parts and has_corners(scene, parts),
+        PINNED: in_plane > (0 if others or scene.actuators else 3),
     }
     return min([IN_ROWS, *(order for order, at_most in applies.items() if at_most)])
 

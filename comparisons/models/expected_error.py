@@ -9,6 +9,8 @@ in the norm of `error` (largest component over the probes; Roache, J. Fluids Eng
 form for a known finer answer). The finer grid has half as many cells again, and at least FINEST_COARSE along
 the shorter side, because the error is not yet second order on coarser grids.
 
+Over a plane e = max |f − g| / max |g|: errors swing there with the places of the masses that touch.
+
 A chain has about as many parts as the grid has cells (`lumped.actuators.division`), whole numbers of each
 segment; the finer grid has so many cells that the chain is divided FINER as well, up to MOST_PARTS.
 
@@ -42,7 +44,7 @@ from sheetbench.choices import EXTRAPOLATED
 from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
-from sheetbench.scenes.objects.obstacles import Box, Sphere
+from sheetbench.scenes.objects.obstacles import Box, Plane, Sphere
 
 FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -121,10 +123,18 @@ def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
     grid = scene_grid(scene, lattice.grid)
     finer = finer_grid(grid, scene)
     if converges(lattice, finer):
-        return finer, prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
+        return finer, ratio_of(scene, grid, finer)
     if prod(finer[:2]) > MOST:
         return NoEstimate(f"{finer[0]} × {finer[1]} masses would be needed")
     return NoEstimate("answers of these springs do not converge to the sheet's on finer grids")
+
+
+def ratio_of(scene: Scene, grid: Grid, finer: Grid) -> float:
+    """Return the number of cells in plan of a finer grid over a grid's; infinite over planes, where errors
+    swing with the places of the masses that touch, and the finer answer stands for the limit."""
+    if any(isinstance(obstacle, Plane) for obstacle in scene.obstacles):
+        return np.inf
+    return prod(n - 1 for n in finer[:2]) / prod(n - 1 for n in grid[:2])
 
 
 def touched_around_points(scene: Scene, solution: Solution, grid: Grid) -> list[str]:

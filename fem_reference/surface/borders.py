@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 
+CORNER = 0.35  # rad, least turn; sides of a round shape turn less
 SLIVER = 5e-4  # width of parts between borders that are not meshed, over the shorter side
 
 
@@ -93,6 +94,25 @@ def has_lines(scene: Scene) -> bool:
     """Return whether a scene's meshes consist of lines along x and y."""
     borders = borders_of(scene)
     return borders is None or borders.along_axes
+
+
+def has_corners(scene: Scene, shapes: Sequence[Shape]) -> bool:
+    """Return whether the sheet has a re-entrant corner, or the rest of it around one of the shapes."""
+    if not (shapes or scene.pierced):
+        return False
+    import shapely
+
+    around = [shapely.difference(scene.region, shape.area) for shape in shapes]
+    for part in shapely.get_parts([scene.region, *around]):
+        oriented = shapely.geometry.polygon.orient(part)
+        for ring in (oriented.exterior, *oriented.interiors):
+            x, y = np.diff(shapely.get_coordinates(ring), axis=0).T
+            turn = np.arctan2(
+                x * np.roll(y, -1) - y * np.roll(x, -1), x * np.roll(x, -1) + y * np.roll(y, -1)
+            )
+            if turn.min() < -CORNER:
+                return True
+    return False
 
 
 def shapes_of(scene: Scene, lines: bool = True) -> list[Shape]:

@@ -69,8 +69,8 @@ def twist_of(grid_cells: GridCells, springs: Springs, cell_moduli: moduli.Moduli
 class Strips(NamedTuple):
     """Cells in strips across the edges normal to an axis, (places along the edge, cells across). twist: of
     the cells; corner: bool, whether a crossing free edge is next to a cell; lines: across the strip of a
-    whole rectangle, whose strips consist of the grid's cells, or None for an outline, whose strips repeat the
-    cell at their end."""
+    whole rectangle of equal stiffness, whose strips consist of the grid's cells, or None, where strips repeat
+    the cell at their end."""
 
     twist: Twist
     corner: np.ndarray

@@ -2,8 +2,10 @@
 
 Any side of a cell with no cell beyond it is a rim. The present cells of each row and column form runs; a run
 is the strip of `lumped.calibration.edge_twist`, of cells like the one at its end, and the cell at a free end
-has the factor of a strip with as many cells. Ends within the sheet's rectangle are free; ends at its edges
-depend on the supports, and have constants `edge_shear` and `strip_shear`.
+has the factor of a strip with as many cells. Whole rectangles of unequal stiffness have strips of equal cells
+too: a strip of unequal cells would make up at its ends for stiffness that it has or lacks elsewhere. Ends
+within the sheet's rectangle are free; ends at its edges depend on the supports, and have constants
+`edge_shear` and `strip_shear`.
 
 The twisting moment in the axes of an oblique rim fades towards it. For n across the rim and t along it, D in
 their axes and the factor f of a wide strip of cells as wide as the grid's, the part of a cell within its
@@ -29,6 +31,7 @@ from lumped.spring_constants import RIMS_OWN, Springs, along_edge, either, rank_
 
 STRIP = 12  # cells across a strip whose far edge has no effect
 EQUAL_SHARE = 1e-9  # tolerance for the shares of cells that one straight line cuts
+EQUAL = 1e-9  # tolerance for equal twisting stiffness, of the largest
 
 
 def with_twist(
@@ -60,7 +63,9 @@ def with_twist(
         rows, share, oblique_near, on_rims, heights = (part.swapaxes(0, across) for part in of_cells)
         of_axis = Twist._make(part[..., axis].swapaxes(0, across) for part in twist)
         corner = ~np.logical_and(*_neighbours(rows, False)) | several
-        strips = Strips(of_axis, corner, None if drawn else lines)
+        spread = np.ptp(of_axis.twisting) / np.max(of_axis.twisting)
+        varied = grid_cells.cells is not None and spread > EQUAL
+        strips = Strips(of_axis, corner, None if drawn or varied else lines)
         usable = _aligned(share, oblique_near) & ~(oblique_near & corner) if drawn else rows
         (places, first), (_, last) = (np.nonzero(rows & ~other.T) for other in _neighbours(rows.T, False))
         for far in (False, True)[: 1 + unequal]:

@@ -11,8 +11,9 @@ from sheetbench.choices import REFERENCES
 from studies.promises import study
 from studies.promises.answer import Promise, Promises
 from studies.promises.expected import expected_errors, solve_again
+from studies.promises.scenes import KINDS
 
-PARTS = ("bars", "expected", "advice")
+PARTS = ("bars", "expected", "advice", "kinds")
 
 
 def command(
@@ -20,6 +21,7 @@ def command(
     scenes: Count = study.SCENES,
     seed: Annotated[int, Kind(least=0)] = study.SEED,
     model: Annotated[list[str] | None, Kind(choices=tuple(REFERENCES))] = None,
+    kind: Annotated[list[str] | None, Kind(choices=KINDS)] = None,
     anew: bool = False,
     *,
     campaign: CampaignOptions,
@@ -34,6 +36,7 @@ def command(
         scenes (N): Scenes drawn, for bars half a minute of one processor each.
         seed (N): Seed of the scenes.
         model (NAMES): Bars of {REFERENCES}.
+        kind (NAMES): Scenes of the part kinds, of {KINDS}: bars and expected errors.
         anew: Solve the stored scenes of expected errors again."""
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()
     with output.open() as out:
@@ -48,4 +51,7 @@ def command(
             if "advice" in parts:
                 advice, replaced = study.advised(count=scenes, seed=seed, **run)
                 rows, skipped = rows + advice, skipped | replaced
+            if "kinds" in parts:
+                by_kind, replaced = study.by_kind(count=scenes, kinds=kind or KINDS, seed=seed, **run)
+                rows, skipped = rows + by_kind, skipped | replaced
         return out.show(Promises(tuple(rows), skipped))

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from math import prod
 from typing import Any
 
 import numpy as np
 
 import lumped
-from comparisons.models.expected_error import finer_grid, grid_error, largest_stretch, resolves
+from comparisons.models.expected_error import finer_grid, grid_error, largest_stretch, ratio_of, resolves
 from comparisons.models.resolve import resolve
 from comparisons.models.solve import solve
 from comparisons.models.spec import Elements, Lattice
@@ -80,7 +79,7 @@ def expected_errors() -> Iterator[Promise]:
             promised = None
             same_branch = fine["status"] == "converged" and fine["snaps"] == coarse["snaps"]
             if same_branch and resolves(row["scene"], tuple(fine["grid"])):
-                ratio = prod(n - 1 for n in fine["grid"][:2]) / prod(n - 1 for n in grid[:2])
+                ratio = ratio_of(row["scene"], grid, tuple(fine["grid"]))
                 estimate = grid_error(u, finer, ratio, fine["stretch"])
                 promised = None if isinstance(estimate, str) else estimate
             if (actual := error(u, truth)) is not None:

@@ -8,6 +8,9 @@ bar      of a component of the displacement at a probe, from the answers on n, Â
 advice   the tolerance that a choice was requested for; the truth is the shell. The choice's time is
          compared with the cheapest of a dozen rows within the tolerance, all of whole sheets
 
+Bars of the shell and expected errors of a lattice (`comparisons.models.expected_error`) are also counted by
+the kind of scene (`studies.promises.scenes.KINDS`); the truth of both is the shell.
+
 A scene on which a model does not converge on every mesh is replaced by the next one drawn.
 """
 
@@ -19,7 +22,10 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from comparisons.models.spec import Elements, Spec, lattices, references, spec_of
+from comparisons.models.expected_error import NoEstimate, expected_error
+from comparisons.models.resolve import resolve
+from comparisons.models.solve import solve
+from comparisons.models.spec import Elements, Lattice, Spec, lattices, references, spec_of
 from comparisons.sweep.campaign import CampaignKeywords, Run, carry_out
 from comparisons.sweep.differences import error
 from comparisons.sweep.limits import limit
@@ -30,10 +36,11 @@ from fem_reference.uncertainty import coarser
 from sheetbench.answers.solution import Status
 from sheetbench.scenes import Scene
 from studies.promises.answer import Promise
-from studies.promises.scenes import SEED, drawn_scenes
+from studies.promises.scenes import KINDS, SEED, drawn_scenes, scenes_of_kinds
 
 TRUTH = {"plate": 48, "shell": 32, "solid": 24}  # elements along the shorter side
 MODELS, MESHES, SCENES = tuple(TRUTH), (8, 16), 40
+MASSES, BY_KIND = 9, 12  # of the lattice, elements of the shell
 TOLERANCES, COMPARED = (0.005, 0.01, 0.02, 0.05), 20
 LEAST = 1e-6
 
@@ -50,7 +57,7 @@ def bars(
     sizes = sorted({n for mesh in meshes for n in coarser(mesh) if isinstance(n, int)})
     solves = [(model, n) for model in models for n in (*sizes, truth[model])]
     promises: list[Promise] = []
-    solved, skipped = _drawn(store, count, solves, truth, seed, **how)
+    solved, skipped = _drawn(store, count, solves, truth, drawn_scenes(seed), **how)
     for scene, rows in solved:
         for model in models:
             for n in meshes:
@@ -59,14 +66,47 @@ def bars(
     return promises, skipped
 
 
+def by_kind(
+    store: Store, count: int = SCENES, kinds: Sequence[str] = KINDS, elements: int = BY_KIND,
+    truth: Mapping[str, int] = TRUTH, seed: int = SEED, **how: Unpack[CampaignKeywords],
+) -> tuple[list[Promise], dict[str, str]]:  # fmt: skip
+    """Return bars of the shell and expected errors of the lattice on `count` drawn scenes, of the kinds in
+    turn, and the replaced scenes with the reason. elements: of the shell; truth: elements of the truth."""
+    meshes = [("shell", n) for n in coarser(elements) if isinstance(n, int)]
+    fine, scenes = ("shell", truth["shell"]), scenes_of_kinds(kinds, seed)
+    solved, skipped = _drawn(store, count, [*meshes, fine], truth, scenes, **how)
+    runs = [Run(f"{__name__}:expected", {"scene": scene.document()}, scene.name) for scene, _ in solved]
+    bars, errors = list[Promise](), list[Promise]()
+    for (scene, rows), run_end in zip(solved, carry_out(runs, store, **how), strict=True):
+        of_meshes, row = [rows[mesh] for mesh in meshes], run_end.row
+        off = error(np.array([*row["probes"].values()]), rows[fine].u) if "probes" in row else None
+        given = row.get("reason", run_end.message), row.get("estimate"), np.inf if off is None else off
+        kind = scene.name.rpartition("-")[0]
+        bars += measured(scene, f"shell {elements}", of_meshes, rows[fine], kind)
+        errors.append(Promise("expected error", f"{MASSES} masses", scene.name, *given, kind=kind))
+    return [*bars, *errors], skipped
+
+
+def expected(scene: dict[str, Any]) -> dict[str, Any]:
+    """Return the lattice's answer as `compare` has it, with the estimate or the reason why there is none; a
+    task."""
+    given = Scene.model_validate(scene)
+    lattice = resolve(given, Lattice(MASSES))
+    answer = solve(lattice)
+    estimate = expected_error(given, lattice.spec, answer, lambda finer: solve(resolve(given, finer)))
+    if isinstance(estimate, NoEstimate):
+        return {**answer.document(given), "reason": estimate.reason}
+    return {**answer.document(given), "estimate": estimate.value}
+
+
 def _drawn(
-    store: Store, count: int, solves: Sequence[tuple[str, int]], truth: Mapping[str, int], seed: int,
-    **how: Unpack[CampaignKeywords],
+    store: Store, count: int, solves: Sequence[tuple[str, int]], truth: Mapping[str, int],
+    scenes: Iterator[Scene], **how: Unpack[CampaignKeywords],
 ) -> tuple[list[tuple[Scene, Row]], dict[str, str]]:  # fmt: skip
     """Return drawn scenes with the requested solves of each, and the scenes that were replaced. The truth is
     graded towards the edges, of the plate by request. Raises RuntimeError where every solve of a draw fails,
     as after the code has changed under a run: other scenes would too."""
-    scenes, skipped, solved = drawn_scenes(seed), dict[str, str](), list[tuple[Scene, Row]]()
+    skipped, solved = dict[str, str](), list[tuple[Scene, Row]]()
     specs = [Elements(model, n, graded=(model, n) == ("plate", truth[model]) or None) for model, n in solves]
     while len(solved) < count:
         drawn = list(islice(scenes, count - len(solved)))
@@ -82,8 +122,10 @@ def _drawn(
     return solved, skipped
 
 
-def measured(scene: Scene, at: str, rows: Sequence[Solved], truth: Solved) -> Iterator[Promise]:
-    """Yield the bars of the components of a model's answers on its meshes."""
+def measured(
+    scene: Scene, at: str, rows: Sequence[Solved], truth: Solved, kind: str = ""
+) -> Iterator[Promise]:
+    """Yield the bars of the components of a model's answers on its meshes. kind: of the scene."""
     uncertainty = limit(rows)
     assert uncertainty is not None
     size = float(np.max(np.abs(truth.u), initial=0.0))
@@ -92,7 +134,7 @@ def measured(scene: Scene, at: str, rows: Sequence[Solved], truth: Solved) -> It
     for i, axis in zip(*np.nonzero(counted), strict=True):
         where = f"{('ux', 'uy', 'uz')[axis]} of {list(scene.probes)[i]}"
         bar, off = uncertainty.bar[i, axis], abs(uncertainty.answer[i, axis] - truth.u[i, axis])
-        yield Promise("bar", at, scene.name, where, float(bar / size), float(off / size))
+        yield Promise("bar", at, scene.name, where, float(bar / size), float(off / size), kind=kind)
 
 
 def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
@@ -107,7 +149,7 @@ def advised(
 ) -> tuple[list[Promise], dict[str, str]]:  # fmt: skip
     """Return the tolerances and errors of advice on `count` drawn scenes, and the replaced scenes with the
     reason. The first `compared` scenes also have its cost."""
-    solved, skipped = _drawn(store, count, [("shell", truth["shell"])], truth, seed, **how)
+    solved, skipped = _drawn(store, count, [("shell", truth["shell"])], truth, drawn_scenes(seed), **how)
     cases = [(number, scene, t) for number, (scene, _) in enumerate(solved) for t in tolerances]
     runs = [
         Run(f"{__name__}:advice", {"scene": s.document(), "tolerance": t}, f"{s.name} {t:g}", timed=True)

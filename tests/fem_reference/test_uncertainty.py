@@ -195,7 +195,7 @@ LESS_SMOOTH = {  # largest order, places as shares of the sides, and the sheet
         ),
     ),
     "on two points": (
-        1.0,
+        1.5,
         [[0.5, 0.57], [0.75, 0.5], [1.0, 1.0]],
         sheet(*(0.2737, 0.1727, 0.0034244, 2.492e6, 0.1676, 1226.2), weight=0.6237, supports=[CLAMP, *PINS]),
     ),

@@ -4,15 +4,17 @@ import json
 
 import numpy as np
 import pytest
+import shapely
 from campaigns import Serial
 
 from comparisons.cli import main
 from studies.promises import study
-from studies.promises.answer import GOALS, Promise, Promises, share
+from studies.promises.answer import GOALS, Goal, Promise, Promises, share
 from studies.promises.expected import expected_errors, lattice, stored
+from studies.promises.scenes import KINDS, scenes_of_kinds
 
 TRUTH = {"plate": 20, "shell": 16}  # enough beside 8 elements, and quick
-NOT_ITS_GOAL = {"bar": (0.92, 7.5, np.inf)}  # six scenes' chance: 3 of a hundred, half as loose again
+NOT_ITS_GOAL = {"bar": Goal(0.92, loosest=7.5)}  # six scenes' chance: 3 of a hundred, half as loose again
 
 
 def test_each_promise_is_kept_by_its_own_rule_and_complained_of_where_it_is_not():
@@ -36,6 +38,28 @@ def test_bars_of_plate_and_shell_hold_on_six_drawn_scenes(store, monkeypatch):
     shares = Promises(tuple(rows), skipped).shares()
     assert [(row.at, row.scenes) for row in shares] == [("plate 8", 6), ("shell 8", 6)]
     assert all(row.cases > 30 and row.met for row in shares)
+
+
+def test_a_scene_of_a_kind_has_its_feature_and_probes_on_the_sheet():
+    features = {}
+    for kind, scene in zip(KINDS, scenes_of_kinds(KINDS), strict=False):
+        parts = [part.kind for part in (*scene.obstacles, *scene.actuators)] + ["mass"] * len(scene.masses)
+        features[kind] = scene.drawn_by or scene.material.law or "".join(parts)
+        assert shapely.covers(scene.region, shapely.points(scene.probe_points())).all()
+    own = {"patch": "patch", "plane": "plane", "chain": "chain", "cylinder": "cylinder", "ball": "sphere"}
+    own |= {"natural": "natural", "temperature": "temperature", "hole": "cutout", "payload": "mass"}
+    own |= {"fibres": "material.kind = 'orthotropic'", "points": 'support.kind = "point"', "plain": ""}
+    assert features == {**own, "rubber": "neo-hookean", "taper": "sheet.taper_x"}
+
+
+def test_bars_and_expected_errors_are_counted_by_kind(store):
+    rows, skipped = study.by_kind(store, 2, ("hole", "chain"), 6, {"shell": 10}, seed=1, pool=Serial)
+    shares = Promises(tuple(rows), skipped).shares()
+    counted = [("bar", "shell 6"), ("expected error", "9 masses")]
+    every = [(*of, kind) for of in counted for kind in ("", "hole", "chain")]
+    assert [(row.promise, row.at, row.kind) for row in shares] == every
+    assert not skipped and [row.scenes for row in shares] == 2 * [2, 1, 1]
+    assert all(row.cases == 1 and row.met for row in shares[4:])
 
 
 @pytest.mark.usefixtures("in_process")

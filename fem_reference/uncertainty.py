@@ -61,7 +61,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import own_patches
 from sheetbench.scenes.objects.obstacles import Cylinder
-from sheetbench.scenes.objects.supports import Point, place
+from sheetbench.scenes.objects.supports import Point, place, points_pull
 
 CAUTION = 3.0  # factor of e in the bar by two meshes
 LEAST_ORDER, ASSUMED_ORDER = 0.5, 2.0
@@ -79,14 +79,13 @@ def largest_order(scene: Scene) -> float:
     points = [support for support in scene.supports if isinstance(support, Point)]
     others = [support for support in scene.supports if not isinstance(support, Point)]
     parts = [shape for support in others if (shape := place(support)) is not None]
-    in_plane = sum(axis in "xy" for point in points for axis in point.components)
     touched = any(not isinstance(obstacle, Cylinder) for obstacle in scene.obstacles)
     applies = {
         FITTED: not has_lines(scene) or scene.obstacles,
         FIBRES: scene.material.kind == "orthotropic",
         ROUGH: touched or points or has_corners(scene, [patch.shape for patch in own_patches(scene)]),
         HELD_CORNER: parts and has_corners(scene, parts),
-        PINNED: in_plane > (0 if others or scene.actuators else 3),
+        PINNED: points_pull(scene.supports, bool(scene.actuators)),
     }
     return min([IN_ROWS, *(order for order, at_most in applies.items() if at_most)])
 

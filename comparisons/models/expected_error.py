@@ -20,6 +20,7 @@ are not in it. No estimate is given
 - for calibrations whose answers do not converge to the sheet's, a given k or layer distance, linear answers;
 - if either answer is no stable equilibrium, or only one of them snapped;
 - if the load bends the sheet within FOLD cells of the finer grid: both grids miss the fold, and agree;
+- if points hold each other in the sheet's plane: the lattice has no limit there, nor has the sheet;
 - if a ball touches on less than a cell of the finer grid: the error depends on where in a cell it is;
 - if the estimate is above FAR: the answers may lie on different branches;
 - if the sheet stretches so far that the laws of strain differ by more (LAW);
@@ -45,6 +46,7 @@ from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
 from sheetbench.scenes.objects.obstacles import Box, Plane, Sphere
+from sheetbench.scenes.objects.supports import points_pull
 
 FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -54,6 +56,7 @@ LAW = 0.2  # of the largest stretch: difference of lattice and shell due to thei
 MOST = 5000  # masses in plan
 LARGE = 0.02  # estimates above it get advice on how to lower them
 ROUNDING = 1e-9  # of the largest displacement
+PINNED = "points that hold each other in the sheet's plane sink into it the more, the finer a grid is"
 
 
 @dataclass(frozen=True)
@@ -151,6 +154,8 @@ def expected_error(
     resolved lattice; solve: solves the finer lattice, None if it needs too much memory."""
     if solution.status is not Status.CONVERGED:
         return NoEstimate(f"the lattice is {solution.status}")
+    if points_pull(scene.supports, bool(scene.actuators)):
+        return NoEstimate(PINNED)
     refinement = finer_of(scene, lattice)
     if isinstance(refinement, NoEstimate):
         return refinement

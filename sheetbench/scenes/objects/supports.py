@@ -10,7 +10,7 @@ A rod that ends at a plane of symmetry has its middle there. A plane of symmetry
 it and the director's tilt across it.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from math import pi
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -170,6 +170,15 @@ def held_axes(support: AnySupport) -> tuple[int, ...]:
     if isinstance(support, Held | Point):
         return tuple("xyz".index(component) for component in support.components)
     return (0, 1, 2)
+
+
+def points_pull(supports: Sequence[AnySupport], driven: bool) -> bool:
+    """Return whether points hold each other, or others them, in the sheet's plane: more than a rigid motion
+    needs. They sink into the sheet by the logarithm of a mesh's size, without a limit. driven: by actuators
+    too."""
+    points = [support for support in supports if isinstance(support, Point)]
+    in_plane = sum(axis in "xy" for point in points for axis in point.components)
+    return in_plane > (0 if driven or len(points) < len(supports) else 3)
 
 
 def encloses_volume(supports: Iterable[AnySupport]) -> bool:

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from catalogue import CASES, FILE, MODELS, OTHERS, ROUNDED, WITHIN, answer, document, scene_of
+from catalogue import CASES, FILE, MODELS, ROUNDED, WITHIN, answer, document, scene_of
 from commands import python
 from threadpoolctl import threadpool_limits
 
@@ -26,15 +26,16 @@ def test_the_table_has_every_scene_and_model():
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize(("name", "model"), CASES)
 def test_the_answers_are_those_of_the_table(name, model):
-    """In as few factorisations; on the way through snaps and folds rounding may cost one more, and what
-    touches when depends on it: with two versions of numba 100 and 122 (napkin-on-ball, solid)."""
+    """In as few factorisations; rounding may cost one more, where a residual ends next to the tolerance or on
+    the way through snaps and folds, and what touches when depends on it: with two versions of numba 100 and
+    122 (napkin-on-ball, solid)."""
     scene = scene_of(name)
     solution, touching = MODELS[model](scene), bool(scene.obstacles)
     assert solution.balance.allowed <= SHARP * solution.balance.size
     kept, found = KEPT[name][model], document(scene, solution)
     assert list(found["displacement"]) == list(kept["displacement"])
     assert (found["status"], found["load_factor"]) == (kept["status"], kept["load_factor"])
-    most = (1.3 if touching else 1.0) * kept["factorisations"] + (name in OTHERS)
+    most = (1.3 if touching else 1.0) * kept["factorisations"] + 1
     assert found["factorisations"] <= most
     np.testing.assert_allclose(found["snaps"], kept["snaps"], atol=0.02)
     u = places(kept)

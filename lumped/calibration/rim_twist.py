@@ -63,8 +63,8 @@ def with_twist(
         rows, share, oblique_near, on_rims, heights = (part.swapaxes(0, across) for part in of_cells)
         of_axis = Twist._make(part[..., axis].swapaxes(0, across) for part in twist)
         corner = ~np.logical_and(*_neighbours(rows, False)) | several
-        spread = np.ptp(of_axis.twisting) / np.max(of_axis.twisting)
-        varied = grid_cells.cells is not None and spread > EQUAL
+        twisting = of_axis.twisting
+        varied = grid_cells.cells is not None and np.ptp(twisting) > EQUAL * np.max(twisting)
         strips = Strips(of_axis, corner, None if drawn or varied else lines)
         usable = _aligned(share, oblique_near) & ~(oblique_near & corner) if drawn else rows
         (places, first), (_, last) = (np.nonzero(rows & ~other.T) for other in _neighbours(rows.T, False))

@@ -48,6 +48,7 @@ YOUNG, POISSON, THICKNESS, DENSITY = NUMBERS = tuple(
 )
 STRAIN, CURVATURE = STATE = FIELD + "strain", FIELD + "curvature"
 OF_SECTION = {YOUNG, POISSON, THICKNESS}
+SECTION_AND_STRAIN = {*OF_SECTION, STRAIN}  # which the rates of springs depend on
 ROUNDING = 1e-9  # of the largest constant
 NOTHING = 1e-300  # N/m, a stiffness of springs that are there
 STEP = 1e-5  # of a field, for differences of springs, whose error is of its square
@@ -55,6 +56,7 @@ Values = Mapping[str, np.ndarray]
 SYMMETRIC = [[0, 2], [2, 1]]  # the tensor of components xx, yy and xy
 # of each kind of springs: the cells beside each, (q, m), and their shares (q, m, n) of its constants
 Shares = list[tuple[np.ndarray, np.ndarray]]
+Rates = dict[str, tuple[Shares, np.ndarray]]  # of springs by fields, each once
 
 
 class CellFields:
@@ -62,7 +64,7 @@ class CellFields:
 
     def __init__(self, scene: Scene, calibration: Calibration, assembly: Assembly):
         self.scene, self.calibration, self.assembly = scene, calibration, assembly
-        self.shape, self._kept = assembly.lattice.cell_areas.shape, dict[str, tuple[Shares, np.ndarray]]()
+        self.shape, self._kept = assembly.lattice.cell_areas.shape, Rates()
         self.isotropic = scene.material.kind != "orthotropic" and not scene.layers
 
     @cached_property
@@ -172,12 +174,13 @@ class CellFields:
         return assembly
 
     def by_number(
-        self, name: str, values: Values, assembly: Assembly, by: list[np.ndarray], v: np.ndarray
+        self, name: str, values: Values, assembly: Assembly, by: list[np.ndarray], v: np.ndarray, kept: Rates
     ) -> np.ndarray:
         """Return the derivatives of v·(f − f_int) by a field of numbers, of the complete lattice `assembly`;
-        by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`)."""
+        by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`); kept: known rates
+        of springs at these values, to which more are added."""
         found = np.zeros_like(self.value(name, values))
-        of_springs, over = self._rates(name, values, assembly) if name in OF_SECTION else ([], found)
+        of_springs, over = self._rates(name, values, assembly, kept) if name in OF_SECTION else ([], found)
         for (cells, change), power in zip(of_springs, by, strict=False):
             each = np.einsum("qmn,mn->qm", change, power[:, : change.shape[2]])
             found -= np.bincount(cells.ravel(), each.ravel(), found.size).reshape(found.shape) / over
@@ -196,10 +199,13 @@ class CellFields:
         found = natural_powers(lattice, flat[:3], state, by[:3])
         return dict(zip(STATE, np.split(-found, 2, axis=-1), strict=True))
 
-    def _rates(self, name: str, values: Values, assembly: Assembly) -> tuple[Shares, np.ndarray]:
+    def rates_at(self, values: Values) -> Rates:
+        """Return the rates of springs by fields that are known at other values."""
+        return self._kept if values.keys().isdisjoint(SECTION_AND_STRAIN) else {}
+
+    def _rates(self, name: str, values: Values, assembly: Assembly, kept: Rates) -> tuple[Shares, np.ndarray]:
         """Return the changes of springs `by_cells` with a field, and of the field; of ν and h together."""
-        values = {one: values[one] for one in values.keys() & {*OF_SECTION, STRAIN}}
-        kept = {} if values else self._kept
+        values = {one: values[one] for one in values.keys() & SECTION_AND_STRAIN}
         if name == YOUNG and name not in kept:  # which all constants are in proportion to, but for a limit
             of = {one: parts for one, parts in self.springs(values)[0].of.items() if one != "gent_limit"}
             kept[name] = self.by_cells(Springs(of), assembly, values), self.value(name, values)

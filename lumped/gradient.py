@@ -121,6 +121,7 @@ class Equilibrium:
     def __init__(self, base: Base, u: np.ndarray, values: Values = ITS_OWN, problem: Problem | None = None):
         self.base, self.u, self.values = base, u, values
         self.problem = problem or (base.with_values(values) if values else base.problem)
+        self.rates_of_cells = base.cells.rates_at(values)
 
     @classmethod
     def of(
@@ -236,7 +237,8 @@ class Gradient(Mapping[str, Any]):
         if name in STATE:
             return self._by_state[name]
         if name.startswith(FIELD):
-            return base.cells.by_number(name, of.values, of.complete, self._by_constants, self.by_forces)
+            at = of.values, of.complete, self._by_constants, self.by_forces, of.rates_of_cells
+            return base.cells.by_number(name, *at)
         if base.scaled_by(name) and (field := FIELD + name) not in of.values:
             share = base.cells.base[field] / getattr(base.scene.material, name)
             return float(np.sum(self[field] * share))

@@ -10,7 +10,7 @@ from contact_cases import bent_over
 
 import lumped
 from lumped.calibration import default
-from lumped.gradient import Equilibrium
+from lumped.gradient import Base, Equilibrium
 from lumped.statics.build import build_problem
 from lumped.statics.solver import solve_path
 from sheetbench import scenes
@@ -265,6 +265,22 @@ def test_a_second_gradient_of_a_scene_makes_no_lattice_and_no_springs(monkeypatc
     again = Equilibrium.of(scene, springs, u).pullback(2.0 * np.ones_like(u))
     for name, value in first.items():
         assert np.allclose(again[name], 2.0 * value, rtol=1e-9, atol=1e-12 * np.abs(value).max()), name
+
+
+def test_designs_in_turn_have_each_their_own_derivatives(monkeypatch):
+    """The rates of springs by all fields are found once a design, and those of another are not taken."""
+    of, rng = lumped.Differentiable("one-edge-clamped"), np.random.default_rng(2)
+    first, second = (of.base["cells.young"] * rng.uniform(0.8, 1.2, (8, 8)) for _ in range(2))
+    made = count(monkeypatch, "lumped.cell_fields.springs_of_cells")
+    for young in (first, second, first):
+        u = of.solve(values := {"cells.young": young})
+        found = of.pullback(weights := np.ones_like(u))
+        found = {name: found[name] for name in of.base}
+        assert made == [1]
+        alone = Equilibrium(Base(of.scene, of.calibration), u, values).pullback(weights)
+        for name, value in found.items():
+            assert np.allclose(value, alone[name], rtol=1e-9, atol=1e-12 * np.abs(value).max()), name
+        made.clear()
 
 
 def test_an_equilibrium_that_is_none_or_unstable_has_no_derivatives():

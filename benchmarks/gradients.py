@@ -1,16 +1,17 @@
-"""Cost of a gradient, a solve with all derivatives over a solve in one process: figures of docs/gradients.md.
+"""Cost of gradients and of many designs, over a solve in one process: figures of docs/gradients.md.
 
     python benchmarks/gradients.py [rounds]
 
 A round takes scenes that have not been seen, sheets clamped at one edge on 9 × 9 × 2 masses of E, ν and h
 drawn within 1 %, and for the row of designs a modulus a cell and forces that have not. Each row is the least
-CPU time of all rounds.
+CPU time of all rounds. The designs of `solve_many` are moduli a cell, drawn within 10 %, of a sheet between
+two clamps: least times by the clock of ten calls, the solve beside them with its springs given.
 """
 
 import argparse
 from collections import defaultdict
 from collections.abc import Callable
-from time import process_time
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,27 @@ def designed(sheet: lumped.Differentiable, rng: np.random.Generator) -> None:
     _ = [found[name] for name in sheet.base]
 
 
+def print_rates(count: int, rng: np.random.Generator) -> None:
+    """Print how many designs a second `solve_many` solves, on one thread and on two."""
+    scene = load("two-edges-clamped")
+    sheet = lumped.Differentiable(scene)
+    base = sheet.base["cells.young"]
+    designs = {"cells.young": base * np.exp(0.1 * rng.standard_normal((count, *base.shape)))}
+
+    def least(run: Callable[[], Any]) -> float:
+        def once() -> float:
+            begin = perf_counter()
+            run()
+            return perf_counter() - begin
+
+        return min(once() for _ in range(10))
+
+    alone = least(lambda: lumped.solve(scene, sheet.calibration))
+    for workers in (1, 2):
+        each = least(lambda workers=workers: lumped.solve_many(scene, designs, workers=workers)) / count
+        print(f"solve_many, {workers} threads: {1.0 / each:.0f} designs a second, {alone / each:.1f} × solve")
+
+
 def main() -> None:
     """Print the times and their ratios."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -62,6 +84,7 @@ def main() -> None:
     least = {row: min(of) for row, of in times.items()}
     for row, time in least.items():
         print(f"{row}: {1e3 * time:.1f} ms, {time / least['solve']:.2f} solves")
+    print_rates(1000, rng)
 
 
 if __name__ == "__main__":

@@ -47,18 +47,25 @@ FORCES = "forces"
 TOGETHER = ("poisson", "thickness")
 FIELD_STEP = {STRAIN: 1e-6, CURVATURE: 1e-3}  # 1 and 1/m; of others 1e-5 of the largest
 ITS_OWN: Values = MappingProxyType({})
-Sides = tuple[list[tuple[Problem, Calibration]], float]
+Sides = tuple["list[Base]", float]
 
 
 class Base:
     """A scene's lattice with the springs of a calibration, which equilibria with any values share. calibrate:
-    finds the springs of a changed scene; by default the calibration's method without options."""
+    finds the springs of a changed scene; by default the calibration's method without options; previous: the
+    lattice of a scene with an equal plan and grid."""
 
     _last: ClassVar[tuple[Any, Base] | None] = None
 
-    def __init__(self, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None):
+    def __init__(
+        self,
+        scene: Scene,
+        calibration: Calibration,
+        calibrate: Calibrate | None = None,
+        previous: Problem | None = None,
+    ):
         self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
-        self.problem = build_problem(scene, calibration)
+        self.problem = build_problem(scene, calibration, previous=previous)
         self.cells = CellFields(scene, calibration, self.problem.assembly)
         self._sides = dict[str, Sides]()
 
@@ -75,15 +82,14 @@ class Base:
         return found
 
     def sides(self, name: str) -> Sides:
-        """Return the problem and springs below and above a parameter, and the distance between both, made
-        once; of ν and h together, as one pass finds all four."""
+        """Return the lattices below and above a parameter, and the distance between both, made once; of ν and
+        h together, as one pass finds all four."""
         if name not in self._sides:
             even = self.calibration.cells is None and self.scene.material.poisson is not None
             names = TOGETHER if even and name in TOGETHER else (name,)
             each = both_sides(self.scene, self.calibration, names, self.calibrate)
             for one, (ends, over) in zip(names, each, strict=True):
-                made = [(build_problem(*end, previous=self.problem), end[1]) for end in ends]
-                self._sides[one] = made, over
+                self._sides[one] = [Base(*end, previous=self.problem) for end in ends], over
         return self._sides[name]
 
     def scaled_by(self, name: str) -> bool:
@@ -98,6 +104,8 @@ class Base:
 
     def with_values(self, values: Values) -> Problem:
         """Return the problem with fields over the cells and forces."""
+        if not values:
+            return self.problem
         problem, assembly, loads = self.problem, self.problem.assembly, self.problem.loads
         if values.keys() - {FORCES}:
             assembly = self.cells.assembly_of(values)
@@ -120,7 +128,7 @@ class Equilibrium:
 
     def __init__(self, base: Base, u: np.ndarray, values: Values = ITS_OWN, problem: Problem | None = None):
         self.base, self.u, self.values = base, u, values
-        self.problem = problem or (base.with_values(values) if values else base.problem)
+        self.problem = problem or base.with_values(values)
         self.rates_of_cells = base.cells.rates_at(values)
 
     @classmethod
@@ -187,11 +195,7 @@ class Equilibrium:
             (low, high), scale = map(self.base.with_values, ends), 0.5 / step
         else:
             sides, over = self.base.sides(name)
-            low, high = (
-                Base(side.scene, springs).with_values(self.values) if self.values else side
-                for side, springs in sides
-            )
-            scale = change / over
+            (low, high), scale = (side.with_values(self.values) for side in sides), change / over
         if low.assembly is high.assembly and low.constraints is high.constraints and not low.contacts:
             force = scale * (high.loads.force(self.u) - low.loads.force(self.u))
             return self.problem.reduce(force), np.zeros_like(self.u), force

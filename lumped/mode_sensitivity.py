@@ -48,7 +48,8 @@ class ModeGradient(Mapping[str, Any]):
         found = sum(by * term[name] for term, by in self._terms)
         if not (name.startswith(FIELD) or name in self._of.calibration.constants.names()):
             sides, over = self._of.sides(name)
-            low, high = (self._mode @ (self._inertia(*side) @ self._mode) for side in sides)
+            each = (self._inertia(side.problem, side.calibration) for side in sides)
+            low, high = (self._mode @ (inertia @ self._mode) for inertia in each)
             found -= self._squared * (high - low) / over
         return found / (4.0 * np.pi * np.sqrt(self._squared))
 

@@ -1,7 +1,7 @@
 """Contact of the sheet with one rigid obstacle: a penalty on the mid-surface, offset by half the thickness.
 
-A place has the depth δ, o = h/2 + δ₀ less its distance from the obstacle
-(`sheetbench.scenes.meaning.distances`), and contact the
+A point of the mid-surface has the depth δ, which is o = h/2 + δ₀ minus its distance from the obstacle
+(`sheetbench.scenes.meaning.distances`); contact has the
 
     energy ∫ ψ(δ) dA,   force ∫ p n dA,  p = ψ',   tangent ∫ p' n nᵀ − p ∂n/∂x dA over the patch {δ > 0}
 
@@ -53,8 +53,9 @@ Pressed = tuple[Any, np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]
 
 
 def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return r, s (p,) of the points of a cell, and for each part the numbers (t, 9) of its points; as many
-    parts along the sides (2,) [m] as none is longer than `longest` [m], a multiple `of` 1 or 2."""
+    """Return coordinates r, s (p,) of points in a cell, and the numbers (t, 9) of the points of each part.
+    The cell, with sides (2,) [m], is divided into equal parts no longer than `longest` [m], their number
+    along each side a multiple of `of`."""
     n, m = of * np.maximum(1, np.ceil(sides / longest / of)).astype(int)
     lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
     s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
@@ -90,8 +91,8 @@ class Contact:
         self.divide(at_corners=isinstance(obstacle, Plane) and flat, bent=True)
 
     def divide(self, at_corners: bool, bent: bool = False) -> None:
-        """Take cells as straight between masses unless they are `bent`, and divide them into parts, of which
-        corners alone may be enough."""
+        """Divide the cells into parts with points of contact: on the curved surface if `bent`, else on the
+        bilinear one; with `at_corners` at the cells' corners alone."""
         self.at_corners, self.bent = at_corners, bent and not at_corners
         longest = self.obstacle.radius / (3.0 if self.bent else 2.0)
         r, s, self.groups = parts_of_cells(self._sides, longest, 2 if self.bent else 1)
@@ -118,11 +119,12 @@ class Contact:
         return sides, near(self.obstacle, self.shares @ vectors, self.offset[of], at[1])
 
     def near(self, at: Deformed) -> Near:
-        """Return the places of points (m, p) of cells beside the obstacle."""
+        """Return the positions and depths of the cells' points (m, p) relative to the obstacle."""
         return self._surface(at, ...)[1]
 
     def _law(self, depth: np.ndarray, of: Any, tangent: bool = False) -> tuple[np.ndarray, ...]:
-        """Return energies, loads, slopes and deepest places at depths (m, t, n) (`Pressed`)."""
+        """Return energies, loads and their derivatives (see `Pressed`), and the largest depth of each part,
+        from depths (m, t, n)."""
         over, n = self.rounded * self.thickness[of][:, self.groups[:, :1]], depth.shape[2]
         k = (self.share * self.full[of])[:, self.groups] * self.sizes[of]
 
@@ -137,7 +139,8 @@ class Contact:
         return *(a - b for a, b in zip(full, less, strict=True)), deepest
 
     def _pressed(self, at: Deformed, since: Since = None, tangent: bool = False) -> Pressed:
-        """Return the state of cells that may touch; since: the mean of a step from there."""
+        """Return the contact state of cells that may touch; with `since` the mean state of the step from
+        there."""
         if since is None:
             places = self._rest + at[0][self.nodes]
             middle = places.mean(axis=1, keepdims=True)
@@ -162,18 +165,18 @@ class Contact:
         return ..., sides, after.mean(before), has, load + more * sunk, slope
 
     def _at_points(self, load: np.ndarray) -> np.ndarray:
-        """Return sums at points (m, p) of loads of groups (m, t, n)."""
+        """Add up the loads of groups (m, t, n) at the cells' points (m, p)."""
         out = np.zeros((len(load), len(self.basis)))
         np.add.at(out, (np.arange(len(load))[:, None, None], self.groups), load)
         return out
 
     def _positive(self, load: np.ndarray) -> np.ndarray:
-        """Return loads of groups shared among the corners of parts: none pulls there."""
+        """Return the loads of groups distributed over the corners of parts, where all are compressive."""
         return self._at_points(load if self.at_corners else load @ TO_CORNERS)
 
     def add_force(self, at: Deformed, force: np.ndarray, since: Since = None) -> float:
-        """Add the internal force, or, given the start of a step, the mean force whose work in the step is the
-        energy's change; return the energy [J]."""
+        """Add the internal force, or, with the start `since` of a step, the mean force whose work over the
+        step equals the change of energy; return the energy [J]."""
         of, sides, near, energy, load, _ = self._pressed(at, since)
         pull = self.shares.T @ (self._at_points(load)[..., None] * near.slope)
         if self.bent:
@@ -184,9 +187,9 @@ class Contact:
     def add_tangent(
         self, at: Deformed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
-        """Add scale × the force's derivative to the pattern's blocks (b, 3, 3) [N/m]; for the mean force of a
-        step the symmetric part of the derivative by the displacement at the step's end. definite: leave out
-        parts that could make the tangent indefinite."""
+        """Add scale × the tangent to the pattern's blocks (b, 3, 3) [N/m]; for the mean force of a step, the
+        symmetric part of its derivative by the displacement at the end. definite: leave out parts that could
+        make the tangent indefinite."""
         of, sides, near, _, load, slope = self._pressed(at, since, True)
         cell, group = np.nonzero(load.any(axis=2))
         on, back = np.unique(cell, return_inverse=True)
@@ -211,14 +214,14 @@ class Contact:
         np.add.at(blocks, self.slots[of][on], scale * of_masses)
 
     def _resisted(self, at: Deformed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
-        """Return cells that may touch, velocities of points past the obstacle (m, p, 3) [m/s], and forces (m,
-        p, 3) [N] of dashpot and friction with their derivatives by velocity (m, p, 3, 3)."""
+        """Return the cells that may touch, their points' velocities relative to the obstacle (m, p, 3) [m/s],
+        and dashpot and friction forces (m, p, 3) [N] with their derivatives by velocity (m, p, 3, 3)."""
         of, _, near, _, load, _ = self._pressed(at)
         speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(at[1].time))
         return of, speed, near.resistance(self._positive(load), speed)
 
     def add_resistance(self, at: Deformed, v: np.ndarray, force: np.ndarray) -> float:
-        """Add the force that resists the velocity; return the power taken [W]."""
+        """Add the dashpot and friction forces; return the power that they dissipate [W]."""
         if not self.resists:
             return 0.0
         of, speed, (pull, _) = self._resisted(at, v)
@@ -226,7 +229,7 @@ class Contact:
         return -float((pull * speed).sum())
 
     def add_resistance_tangent(self, at: Deformed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the resisting force by the velocity [N·s/m]."""
+        """Add scale × the derivative of the dashpot and friction forces by the velocity [N·s/m]."""
         if self.resists:
             of, _, (_, by_speed) = self._resisted(at, v)
             touched = by_speed.any(axis=(1, 2, 3))
@@ -243,7 +246,7 @@ class Contact:
         return -force
 
     def _of_masses(self, points: np.ndarray) -> np.ndarray:
-        """Return sums (n,) at masses of values at points (m, p), shared by their weights."""
+        """Distribute values at points (m, p) over the masses (n,) by the points' weights."""
         return np.bincount(self.nodes.ravel(), (points @ self.weights).ravel(), minlength=self._masses)
 
     def stiffest(self, mass: np.ndarray) -> float:
@@ -251,13 +254,14 @@ class Contact:
         return float((self._of_masses(self.area * self.share * self.full) / mass).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
-        """Set the stiffness in motion, relative to the springs' highest squared frequency [1/s²]."""
+        """Set the penalty for a motion; squared: the springs' highest ω² [1/s²], which limits its
+        stiffness."""
         self.divide(at_corners=isinstance(self.obstacle, Plane))
         self.full, self.rounded = self.full * (self._inert[self.nodes] @ self.weights.T), ROUNDED
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
     def rounding(self, at: Deformed) -> float:
-        """Return the norm [N] of the error of its forces by rounding of displacements."""
+        """Return the norm [N] of the contact forces' error caused by rounding of displacements."""
         touched = self._pressed(at, tangent=True)[-1].sum(axis=(2, 3))
         return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
@@ -272,10 +276,10 @@ class Contact:
         return ContactState.of(deepest / self.thickness[:, first], touched, load), pressure
 
     def table(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return masses (t, q) around its points and their weights (t, q); and (t, 10) the obstacle's place,
-        direction and radius, 0 of a plane [m], a point's area [m²], offset [m] and stiffness [N/m³]: with the
-        depth δ of the module's text a point has the energy ½ stiffness area ⟨δ⟩², once straight at
-        corners."""
+        """Return a table of the points in contact: masses (t, q) around each and their weights (t, q); and
+        (t, 10) the obstacle's position [m], direction and radius [m], 0 for a plane, and the point's area
+        [m²], offset [m] and stiffness [N/m³]. For contact at corners, a point of depth δ has the energy ½
+        stiffness area ⟨δ⟩²."""
         body, cells = self.obstacle, len(self.nodes)
         at = self.groups[:, 0]
         place = np.nan_to_num([*body.place(), *body.direction, body.radius], posinf=0.0)

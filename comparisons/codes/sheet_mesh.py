@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.codes.cell import cut_squares
-from comparisons.codes.coefficients import five
+from comparisons.codes.coefficients import square_tetrahedra
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene, Sheet
 from sheetbench.scenes.objects.fields import POINTS
@@ -179,7 +179,7 @@ def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> t
         [2 * number[i, j] + layer for i, j, layer in corners]
         for square in number
         if (square[0] + 1, square[1] + 1) in number
-        for corners in five(*square)
+        for corners in square_tetrahedra(*square)
     ]
     lift = np.array([[0.0, 0.0, -0.5], [0.0, 0.0, 0.5]]) * height
     probes = {

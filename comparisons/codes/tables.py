@@ -166,7 +166,8 @@ def _list_cells(lattice: Description, width: int) -> Iterator[Row]:
 
 
 def natural(lattice: Description) -> str:
-    """Return the table of A·A, B·B and A·B without stress [m²] of rows of cells.csv, from 0, with sides."""
+    """Return the CSV table of the stress-free metric A·A, B·B and A·B [m²] of strain and coupling springs, by
+    row of cells.csv from 0."""
     places = np.cumsum([0, *(len(table.corners) for table in lattice.cells)])
     rows = (
         row
@@ -189,7 +190,7 @@ def contacts(lattice: Description, scene: Scene) -> dict[str, str]:
 
 
 def _pad_columns(values: np.ndarray, width: int) -> np.ndarray:
-    """Return rows with zeros behind them, of so many columns."""
+    """Return rows padded with zeros to a number of columns."""
     return np.pad(values, ((0, 0), (0, width - values.shape[1])))
 
 

@@ -1,4 +1,4 @@
-"""The page's sliders with their bounds, and the reading of its questions.
+"""The page's sliders with their bounds, and the validation of its requests.
 
 A question has the values of the page's sliders, JSON from outside: names, types and bounds are checked, which
 are also what keeps a solve small.
@@ -32,7 +32,7 @@ SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of
 
 @dataclass(frozen=True)
 class Slider:
-    """A number that can be dragged: its bounds and value in SI units, and how it is shown, times `factor`."""
+    """A slider: bounds and value in SI units, and the factor of the displayed value."""
 
     name: str
     label: str
@@ -45,14 +45,14 @@ class Slider:
     logarithmic: bool = False
 
     def require(self, value: float) -> None:
-        """Raise BadInput for a value that this page does not take."""
+        """Raise BadInput for a value out of bounds, or not whole if it must be."""
         if not self.low <= value <= self.high or (self.whole and value != int(value)):
             kind = "a whole number " if self.whole else ""
             raise BadInput(f"{self.name} = {value:g}: {kind}from {self.low:g} to {self.high:g} on this page")
 
 
 class Message(BaseModel):
-    """One setting of all sliders, as the page sends it; number: of the question."""
+    """Values of all sliders, as the page sends them; number: of the question."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
     number: Annotated[int, Field(ge=0, lt=2**53)]

@@ -182,7 +182,7 @@ class DiscreteShell(DiscreteElements):
         """Return the prescribed change (2, n, 3) of positions [m] and directors."""
         return self.supports.change(*self.instant(at))
 
-    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+    def constrained_rate(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         prescribed = np.zeros(self._held.shape)
         prescribed[: 2 * self.nodes] = self.supports.rate(time).reshape(-1, 3)
         rate = np.where(self._held, prescribed, v.reshape(self._held.shape))
@@ -190,7 +190,7 @@ class DiscreteShell(DiscreteElements):
         turns -= np.einsum("nc,nc->n", turns, directors)[:, None] * directors
         return rate.ravel()
 
-    def short(self, shape: SheetShape) -> np.ndarray:
+    def gap_step(self, shape: SheetShape) -> np.ndarray:
         free = np.concatenate([np.zeros((self.nodes, 3)), to_unit(self.directors(shape.q))])
         target = np.zeros(self._held.shape)  # rods stand still
         target[: 2 * self.nodes] = self.change(shape.at).reshape(-1, 3)
@@ -273,7 +273,7 @@ class DiscreteShell(DiscreteElements):
 
     # results and validity
 
-    def inside_out(self, q: np.ndarray) -> str:
+    def inverted_element(self, q: np.ndarray) -> str:
         return inverted(self.element, self.gather(q))
 
     def stretch(self, shape: SheetShape) -> float:

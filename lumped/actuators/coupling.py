@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from lumped.actuators.actuator import Acting, Drive, RigidMotion
+from lumped.actuators.actuator import Drive, InterfaceForces, RigidMotion
 from lumped.actuators.chain import BoundChain
 from lumped.actuators.corners import SharedCorner, Tie, adjacent_base, held_ends, redundant, shared_corners
 from lumped.coverage import held_columns, reached_parts
@@ -183,8 +183,8 @@ class Coupling:
         """Return the force (3,) [N] of every prescribed motion and held base, by its name among a solution's
         reactions; exerted: (size, 3) [N] that holds masses and rows."""
         forces: dict[str, np.ndarray] = {}
-        for actuator, acting in self._acting(np.zeros_like(exerted), exerted):
-            forces |= actuator.reactions(acting)
+        for actuator, interface in self._interfaces(np.zeros_like(exerted), exerted):
+            forces |= actuator.reactions(interface)
         for body, end, base in self._held_by:
             forces[base] = forces[base] + body.corner_force(end, self.on_rows(body, exerted))
         return forces
@@ -196,7 +196,7 @@ class Coupling:
     def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin of the forces that hold the actuators, corners of
         chains included; exerted: (size, 3) [N] that holds masses and rows."""
-        moments = (actuator.held_moment(acting, drive) for actuator, acting in self._acting(u, exerted))
+        moments = (body.held_moment(interface, drive) for body, interface in self._interfaces(u, exerted))
         return sum(moments, np.zeros(3))
 
     def moment(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
@@ -212,18 +212,18 @@ class Coupling:
         """Return force and moment of each segment on the sheet, (segments, 6) [N, N·m] by actuator; exerted:
         (size, 3) [N] that holds masses and rows."""
         wrenches: dict[str, np.ndarray] = {}
-        for actuator, acting in self._acting(u, exerted):
-            wrenches.update(zip(actuator.names, actuator.wrenches(acting), strict=True))
+        for actuator, interface in self._interfaces(u, exerted):
+            wrenches.update(zip(actuator.names, actuator.wrenches(interface), strict=True))
         return wrenches
 
-    def _acting(
+    def _interfaces(
         self, u: np.ndarray, exerted: np.ndarray
-    ) -> Iterator[tuple[BoundChain | RigidMotion, Acting]]:
+    ) -> Iterator[tuple[BoundChain | RigidMotion, InterfaceForces]]:
         for actuator in self._all:
             masses, rows = actuator.masses, (NO_ROWS, NO_ROWS)
             if isinstance(actuator, BoundChain):
                 rows = self.on_rows(actuator, exerted), u[actuator.place]
-            yield actuator, Acting(self._positions[masses] + u[masses], exerted[masses], *rows)
+            yield actuator, InterfaceForces(self._positions[masses] + u[masses], exerted[masses], *rows)
 
 
 def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:

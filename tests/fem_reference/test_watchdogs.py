@@ -141,9 +141,9 @@ def test_the_shell_knows_its_mid_surface_s_stretch_and_its_inverted_elements():
     q = np.zeros(shell.size)
     shell.displacement(q)[:, 0] = 0.6 * shell.plan.nodes[:, 0]
     assert shell.shape(q, 1.0).stretch == pytest.approx(0.6, rel=1e-9)
-    assert not shell.inside_out(q)
+    assert not shell.inverted_element(q)
     shell.displacement(q)[:, 0] = -1.5 * shell.plan.nodes[:, 0]  # a mirror image of half the length
-    assert "use more elements" in shell.inside_out(q)
+    assert "use more elements" in shell.inverted_element(q)
 
 
 LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX

@@ -118,7 +118,7 @@ class _Creep(Generic[State, Forces]):
 
     def _creep_step(self) -> State | None:
         """Return the end of a step of creep, None if its iterations fail."""
-        structure = self.structure.dragged(self.state, self.load_factor, self.drag)
+        structure = self.structure.creep_step(self.state, self.load_factor, self.drag)
         state, lengths, first = self.state, list[float](), np.inf
         for k in range(CORRECTIONS + 1):
             forces = structure.forces(state, self.load_factor)
@@ -160,10 +160,10 @@ class _Creep(Generic[State, Forces]):
         structure, drag = self.structure, FIRST_DRAG
         forces = structure.forces(saddle, self.load_factor)
         tangent, _ = structure.linearised(saddle, forces, self.load_factor, mixed=False)
-        factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
+        factor = self._factor(structure.creep_step(saddle, self.load_factor, drag), saddle)
         while factor.negative:
             drag *= FASTER
-            factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
+            factor = self._factor(structure.creep_step(saddle, self.load_factor, drag), saddle)
         mode = np.random.default_rng(0).uniform(-1.0, 1.0, structure.unknowns)
         for _ in range(INVERSE_STEPS):
             mode = factor.solve((factor.matrix @ mode - tangent @ mode) / drag)

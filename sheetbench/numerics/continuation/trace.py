@@ -26,7 +26,7 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton, predicted
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Progress, Settle
 from sheetbench.numerics.continuation.stability import stability
-from sheetbench.numerics.continuation.stiffening import reaches, require_way, trace_with_penalties
+from sheetbench.numerics.continuation.stiffening import require_free_step, trace_with_penalties, within_reach
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
@@ -55,7 +55,7 @@ def trace_path(
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        touching = structure.contacts and reaches(structure)
+        touching = structure.contacts and within_reach(structure)
         fault = trace_with_penalties(path, _trace, near) if touching else _trace(path, near)
         path.fault = fault
         path.status, note = fault or stability(path)
@@ -146,7 +146,7 @@ def _trace_snaps(path: Path[State, Forces], ending: Ending) -> Fault | None:
         try:
             state = path.settle(path, beyond)
             if path.structure.contacts:
-                require_way(path, state, beyond)
+                require_free_step(path, state, beyond)
             path.put(state, beyond)
         except LoadStepFailed as failure:
             tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
@@ -174,7 +174,7 @@ def _take_load_steps(path: Path[State, Forces], careful: bool = False) -> LoadSt
             close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, last = newton(path, first, close)
             if path.structure.contacts:
-                require_way(path, state, first.target)
+                require_free_step(path, state, first.target)
             if careful:
                 last, longest = _require_continuous(path, first, state, last)
         except LoadStepFailed as failure:

@@ -164,8 +164,8 @@ def test_answers_are_those_of_compare(address, panel):
 
 def test_there_is_no_error_where_the_lattice_has_no_answer(panel, monkeypatch):
     question = panel.read(query_of(panel, 0))
-    found = replace(server.solved(question), status=Status.DIVERGED)
-    monkeypatch.setattr(server, "solved", lambda *_: found)
+    found = replace(server.solve_lattice(question), status=Status.DIVERGED)
+    monkeypatch.setattr(server, "solve_lattice", lambda *_: found)
     assert server.shell(question)["error"] is None
 
 
@@ -195,7 +195,7 @@ def test_a_question_that_is_too_long_is_not_read(address):
 
 def test_few_connections_are_open_at_once(address):
     place = urlsplit(address)
-    patience = server.Desk.timeout / 2  # s: those that are let in are closed by silence, later
+    patience = server.RequestHandler.timeout / 2  # s: those that are let in are closed by silence, later
     with ExitStack() as opened:
         idle = [
             opened.enter_context(socket.create_connection((place.hostname, place.port), patience))

@@ -236,7 +236,7 @@ def test_a_tape_spring_snaps_as_the_lattice_does(taped):
 
 @pytest.mark.parametrize("scene", [rod_scene(0.1, 3.0), chained()], ids=["shell", "rods"])
 def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene):
-    """Along free positions, by central differences; a dragged sheet is, where it begins, the sheet itself."""
+    """Along free positions, by central differences; a creep step begins with the forces of the sheet."""
     sheet = DiscreteShell(rectangle(scene.sheet, (3, 3), graded=True), scene)
     generator, factor, structure = np.random.default_rng(3), 0.7, Static(sheet)
     free = ~sheet.supports.position
@@ -250,7 +250,7 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
     state = StaticState(q)
     residual = structure.forces(state, factor).residual
     assert (ahead - behind) / (2.0 * step) == pytest.approx(residual @ way, rel=1e-6)
-    slow = structure.dragged(state, factor, 3.0).forces(state, factor).residual
+    slow = structure.creep_step(state, factor, 3.0).forces(state, factor).residual
     assert slow == pytest.approx(residual, rel=1e-9, abs=1e-9 * np.abs(residual).max())
 
 

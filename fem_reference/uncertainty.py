@@ -61,7 +61,7 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import own_patches
 from sheetbench.scenes.objects.obstacles import Cylinder
-from sheetbench.scenes.objects.supports import Point, place, points_pull
+from sheetbench.scenes.objects.supports import Point, place, points_overconstrain
 
 CAUTION = 3.0  # factor of e in the bar by two meshes
 LEAST_ORDER, ASSUMED_ORDER = 0.5, 2.0
@@ -85,7 +85,7 @@ def largest_order(scene: Scene) -> float:
         FIBRES: scene.material.kind == "orthotropic",
         ROUGH: touched or points or has_corners(scene, [patch.shape for patch in own_patches(scene)]),
         HELD_CORNER: parts and has_corners(scene, parts),
-        PINNED: points_pull(scene.supports, bool(scene.actuators)),
+        PINNED: points_overconstrain(scene.supports, bool(scene.actuators)),
     }
     return min([IN_ROWS, *(order for order, at_most in applies.items() if at_most)])
 

@@ -63,7 +63,7 @@ class Constraints:
         return other
 
     def turned(self, load_factor: float) -> np.ndarray:
-        """Return the part of g (n, 3) [m] by bent rods and tilted clamps."""
+        """Return the part of g (n, 3) [m] that bent rods and tilted clamps prescribe."""
         g = np.zeros_like(self.shift)
         for edge in self.driven:
             masses = self.holders[edge.edge][0].ravel()

@@ -18,7 +18,7 @@ WORKING = 10_000  # compiling kernels takes as much memory as with the default o
 
 
 def begin() -> None:
-    """Collect garbage less often, keep freed memory, and use one BLAS thread unless the user set a number."""
+    """Reduce garbage collections, keep freed memory, and use one BLAS thread unless the user set a number."""
     keep_freed_memory()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when NumPy and SciPy are imported
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "true")  # avoids a search of all installed packages

@@ -70,7 +70,7 @@ def may_differ(u: np.ndarray, other: np.ndarray) -> bool:
 
 
 def _on_branch(again: Solution, points: np.ndarray, target: np.ndarray, previous: np.ndarray) -> bool:
-    """Return whether an answer is stable, and nearer to the target's displacements than to the previous."""
+    """Return whether an answer is stable, and nearer to the displacements `target` than to `previous`."""
     u = again.displacement(points)
     gap = np.abs(target - previous).max()
     return again.status is Status.CONVERGED and bool(np.abs(u - target).max() < SAME * gap)

@@ -46,7 +46,7 @@ from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
 from sheetbench.scenes.objects.obstacles import Box, Plane, Sphere
-from sheetbench.scenes.objects.supports import points_pull
+from sheetbench.scenes.objects.supports import points_overconstrain
 
 FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
@@ -154,7 +154,7 @@ def expected_error(
     resolved lattice; solve: solves the finer lattice, None if it needs too much memory."""
     if solution.status is not Status.CONVERGED:
         return NoEstimate(f"the lattice is {solution.status}")
-    if points_pull(scene.supports, bool(scene.actuators)):
+    if points_overconstrain(scene.supports, bool(scene.actuators)):
         return NoEstimate(PINNED)
     refinement = finer_of(scene, lattice)
     if isinstance(refinement, NoEstimate):

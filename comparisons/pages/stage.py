@@ -1,4 +1,4 @@
-"""Sheets of a study in three dimensions: its VTU files as options of the viewer.
+"""Options of the three-dimensional viewer, from a study's VTU files.
 
 A file has point data `displacement`; a comparison's plan grid has one a model, and the difference; a file of
 modes has one a mode. A PVD file lists the moments of a motion.
@@ -25,7 +25,7 @@ Options = dict[str, Any]
 
 
 def stage(study: Study) -> Options | None:
-    """Return the viewer's options, or None where there are no sheets to show."""
+    """Return the viewer's options, or None without sheets to show."""
     meshes = {name: mesh for name in study.ending(".vtu") if (mesh := study.read(name, _read_mesh))}
     motions = {name: series for name in study.ending(".pvd") if (series := study.read(name, _read_series))}
     sheets: list[Options] = []

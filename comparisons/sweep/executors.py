@@ -154,7 +154,7 @@ def pool_of(scheduler: str | None) -> Iterator[Pool]:
 
 
 def _join(stopped: Connection) -> None:
-    """End this worker as soon as its parent has ended or closed the other end of `stopped`."""
+    """End this worker process once its parent has ended or closed the other end of the pipe `stopped`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     keep_freed_memory()
     parent = multiprocessing.parent_process()

@@ -149,7 +149,8 @@ def logarithmic(axis: Axes) -> None:
 
 
 def _labelled(axis: Axes, value: float) -> bool:
-    """Return whether a minor tick of x has a number: all below half a decade, 2 and 5 below 1.5 decades."""
+    """Return whether a minor tick on the x axis has a number: all if the axis spans less than half a decade,
+    2 and 5 if less than 1.5 decades."""
     low, high = axis.get_xlim()
     leading = round(value / 10.0 ** np.floor(np.log10(value)))
     return high < 10**0.5 * low or (high < 10**1.5 * low and leading in (2, 5))

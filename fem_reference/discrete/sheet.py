@@ -87,7 +87,8 @@ class Discrete(ABC):
         return self
 
     def again(self) -> Callable[[], Self] | None:
-        """Return a function that builds the sheet again, to compute derivatives; None if it has none."""
+        """Return a function that builds the sheet again, to compute derivatives, or None for a sheet
+        without."""
         return None
 
     def bound_rods(self) -> BoundRods:

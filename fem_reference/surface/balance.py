@@ -67,8 +67,8 @@ class Surface:
 
 
 def applied(scene: Scene, surface: Surface, edges: Sequence[RodOnEdge]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the total force [N] and moment [N·m] (3,) of all loads and weights, those of chains on edges
-    included."""
+    """Return the total force [N] and moment [N·m] (3,) of all loads and weights, including chains on
+    edges."""
     force, moment = _dead_force(scene, surface), np.zeros(3)
     if scene.gravity is not None:
         parts = [surface.first_moment(scene)]

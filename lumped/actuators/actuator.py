@@ -1,4 +1,4 @@
-"""Commands of actuators, forces between them and the sheet, and the simplest actuator, an edge's motion.
+"""Commands of actuators, forces between actuators and the sheet, and the prescribed rigid motion of an edge.
 
 A prescribed motion sets the displacement of its masses; the force that holds them follows from the sheet. A
 chain has a state of its own: rows of displacement, (rows, 3) [m], to which masses of the edge are bound; the
@@ -59,11 +59,11 @@ class RigidMotion:
         return self._moved.velocity(self._plan, self._height, time)
 
     def reactions(self, interface: InterfaceForces) -> dict[str, np.ndarray]:
-        """Return the force (3,) [N] that holds the motion, by the motion's name among reactions."""
+        """Return the force (3,) [N] that imposes the motion, by its name among the reactions."""
         return {self._held_as: (self._part * interface.on_masses).sum(axis=0)}
 
     def held_moment(self, interface: InterfaceForces, drive: Drive) -> np.ndarray:
-        """Return the moment (3,) [N·m] about the origin of the forces that hold the motion."""
+        """Return the moment (3,) [N·m] about the origin of the forces that impose the motion."""
         return np.cross(interface.positions, self._part * interface.on_masses).sum(axis=0)
 
     def wrenches(self, interface: InterfaceForces) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""All actuators of a scene, bound to a lattice: in the displacement their rows follow the masses' rows.
+"""All actuators of a scene, bound to a lattice; their rows of the displacement come after the masses' rows.
 
 A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes with supports that
 contradict the motion are refused; two motions that share a corner share its force. Any other mass that a
@@ -24,8 +24,8 @@ NO_ROWS = np.empty((0, 3))
 
 
 class Coupling:
-    """The actuators with the place of each one's rows; arrays of `size` rows contain the masses, then the
-    actuators' rows.
+    """The actuators of a scene on a lattice. Arrays have `size` rows, first the masses', then each
+    actuator's.
 
     bodies: actuators that have rows, in the order of the rows; moved: (masses,) bool, masses of edges moved
     rigidly; algebraic: (size, 3) bool, components that are multipliers; free: (rows, 3) bool, components of
@@ -64,7 +64,7 @@ class Coupling:
         self.multipliers = int(self.algebraic.sum())
 
     def _free_gradient(self) -> np.ndarray:
-        """Return the constraints' gradient at rest by the rows that can move and are not tied to others."""
+        """Return the constraints' gradient at rest by the free rows, with tied rows eliminated."""
         gradient = self.constraint_gradient(np.zeros((self.size, 3))) * self.free
         for tie in self.ties:
             rows, others = tie.rows - self.masses, tie.others - self.masses
@@ -73,13 +73,14 @@ class Coupling:
         return gradient.reshape(len(gradient), -1)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the rows that act on each other, as ordered pairs of numbers after the masses."""
+        """Return the ordered pairs of actuators' rows that are coupled, by row numbers."""
         by_body = [np.argwhere(body.pairs) + body.place.start for body in self.bodies]
         rows, columns = np.concatenate([np.empty((0, 2), int), *by_body]).T
         return rows, columns
 
     def carried(self) -> np.ndarray:
-        """Return the forces (size,) [N] on rows whose rounding the residual cannot fall below."""
+        """Return the magnitudes (size,) [N] of the forces in each row's sum, whose rounding limits the
+        residual."""
         return np.concatenate([np.zeros(self.masses), *(np.full(a.rows, a.carried) for a in self.bodies)])
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
@@ -87,8 +88,8 @@ class Coupling:
         return np.concatenate([np.empty((0, 3)), *(a.weight(acceleration) for a in self.bodies)])
 
     def axes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Return the rows (p,) of the points where segments end and the points' places at rest (p, 3) [m], by
-        edge with chains; several chains on an edge have the mean of their axes."""
+        """Return, for every edge with chains, the rows (p,) of the segments' end points and their positions
+        at rest (p, 3) [m]; several chains on an edge have the mean of their axes."""
         return {body.edge: (body.place.start + np.arange(len(body.axis)), body.axis) for body in self.bodies}
 
     def corners(self) -> list[tuple[BoundChain, int, np.ndarray]]:
@@ -97,8 +98,8 @@ class Coupling:
         return [(body, end, self._layers[body.edge][-end]) for body, end in ends]
 
     def follow(self, u: np.ndarray) -> None:
-        """Set, in a displacement u (size, 3) [m], chains' ends and the masses bound to them by their corners'
-        masses."""
+        """Set chains' ends, and the masses bound to them, in a displacement u (size, 3) [m] to match the
+        masses of held corners."""
         for chain, end, column in self.corners():
             u[chain.place] += chain.place_corner(end, self._positions[column, 2], u[column])
             u[chain.masses] = chain.binding @ u[chain.place]

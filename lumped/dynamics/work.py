@@ -26,8 +26,9 @@ def work(system: System, before: State, after: State) -> float:
 
 
 def imposed_work(system: System, before: State, after: State) -> float:
-    """Return the work [J] of commands and natural states in a step, with the start's displacement in its
-    first half and the end's in its second, and the gain of kinetic energy of prescribed masses."""
+    """Return the work [J] of commands and natural states in a step, plus the gain of kinetic energy of
+    prescribed masses. Commands change at the start's displacement in the first half of the step, and at the
+    end's in the second."""
     middle, done = 0.5 * (before.time + after.time), 0.0
     for u, start, end in ((before.u, before.time, middle), (after.u, middle, after.time)):
         done += natural_work(system, u, start, end)

@@ -55,8 +55,8 @@ def resist_again(v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch
 def at_places(
     fresh: bool, elastic: bool, damped: bool, pushed: bool, packing: Packing, at: Scratch
 ) -> tuple[float, float]:
-    """Return energy [J] and power [W] of the displacement and velocity at the places of a packing, by a pass
-    that computes shapes (fresh) or reuses kept ones; set the forces at the places if `pushed`. The
+    """Return the energy [J] and power [W] at the displacement and velocity stored in a packing's scratch
+    arrays. fresh: compute the springs' shapes, else reuse them; pushed: write the forces too. The
     mid-surface's places are written to."""
     u, v, force, tile = at
     force[:] = 0.0

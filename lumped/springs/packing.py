@@ -135,8 +135,8 @@ def _in_blocks(count: int) -> int:
 
 
 def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
-    """Set the place of each run's shapes in runs (r, 8), one place for all if there are no dampers or too
-    many shapes; return whether each run has a separate place, and a tile's length."""
+    """Write the offset of each run's shapes into runs (r, 8), one offset for all without dampers or with too
+    many shapes; return whether offsets differ, and the length of a tile."""
     rows = np.where(runs[:, 0] >= CELLS, CELL_SHAPE, LINK_SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)
     keeping = damped and STRIDE * int(before[-1]) <= CACHE_LIMIT

@@ -101,7 +101,7 @@ def thin_layers(problem: Problem, state: LatticeState, survey: Survey) -> str:
 
 
 def slender_cells(lattice: Lattice) -> str:
-    """Return a sentence if an unstable lattice has cells so slender that they may be the cause, else ""."""
+    """Return a sentence if slender cells may be the cause of a lattice's instability, else ""."""
     x, y = (line.widths for line in lattice.lines)
     times = max(x.max() / y.min(), y.max() / x.min())
     if times < SLENDER:

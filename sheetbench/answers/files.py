@@ -1,4 +1,4 @@
-"""Folders and documents: folders for files, and plain data as JSON."""
+"""Folders for output files, and conversion of plain data to JSON."""
 
 import hashlib
 import json

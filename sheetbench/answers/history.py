@@ -109,11 +109,12 @@ class History(Answer):
 
     @property
     def accounts(self) -> dict[str, np.ndarray]:
-        """Return the energies, with the integrator's own dissipation; empty if there are none."""
+        """Return the energies by name, with the integrator's numerical dissipation; empty if none were
+        recorded."""
         return {**self.energies, "numerical": self.numerical} if self.energies else {}
 
     def gradient(self, *_: Any, **__: Any) -> None:
-        """Refuse adjoint derivatives, which motions do not have, by name: BadInput."""
+        """Raise BadInput: a motion has no adjoint derivatives."""
         raise BadInput(
             "gradient: a motion has no adjoint in time; lumped.simulate(..., sensitivities=['young']) has "
             "derivatives by up to 20 parameters"

@@ -88,8 +88,8 @@ def by_kind(
 
 
 def expected(scene: dict[str, Any]) -> dict[str, Any]:
-    """Return the lattice's answer as `compare` has it, with the estimate or the reason why there is none; a
-    task."""
+    """Return the lattice's answer in the form of `compare`, with the expected error or the reason against
+    one; a task."""
     given = Scene.model_validate(scene)
     lattice = resolve(given, Lattice(MASSES))
     answer = solve(lattice)

@@ -17,7 +17,7 @@ from lumped.statics import faults
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.runs.record import width
-from sheetbench.runs.run import Run, Watch
+from sheetbench.runs.run import Run, SampleChecks
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
 from sheetbench.scenes import Curved, EdgeLoad
@@ -115,7 +115,7 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
     def checked(balance):
         kept = MemoryStore({"samples": (6,), "frames": (1, 3)})
         run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), kept, (), None)
-        run.watch = Watch(balance, lowest=balance, largest=3.0)
+        run.watch = SampleChecks(balance, lowest=balance, largest=3.0)
         fault = run._record_samples(moving)
         return run.samples, fault
 

@@ -80,9 +80,9 @@ def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) ->
 
 
 def limit_of(loop: str, frequency: float, resistance: float = 0.0, rate: float | None = 0.0) -> float:
-    """Return the largest stable step [s] of a loop for all frequencies up to `frequency` [rad/s]; resistance:
-    damping [1/s] at the highest; rate: part of it proportional to masses, or None for damping that is not
-    proportional, up to `resistance` at every frequency."""
+    """Return the largest step [s] at which a time loop is stable for all frequencies up to `frequency`
+    [rad/s]. resistance: damping rate [1/s] at the highest frequency; rate: its mass-proportional part, or
+    None if every frequency may have any damping up to `resistance`."""
     shares = np.linspace(0.0, 1.0, MODES + 1)[1:]
     omega, damping = frequency * shares, np.zeros(MODES)
     if rate is not None:

@@ -57,8 +57,9 @@ def solve_stages(
     arrays: Arrays,
     factors: np.ndarray,
 ) -> tuple[bool, int, int, int]:
-    """Solve the stages from `first` on, which goes on with `remaining` corrections unless 0. Return whether
-    all are solved, else the unsolved stage and its remaining corrections; and the number of corrections."""
+    """Solve the stages from `first` on. remaining: corrections left for an interrupted first stage, 0 to
+    begin it. Return whether all are solved, else the unsolved stage and its remaining corrections; and the
+    number of corrections."""
     made, by = 0, (step.mass_coefficient, step.damping_coefficient)
     bases_u, bases_v = arrays.base_u, arrays.base_v
     base_u, base_v = bases_u.reshape(-1), bases_v.reshape(-1)

@@ -93,7 +93,7 @@ class _Creep(Generic[State, Forces]):
                 self._leave_saddle(state)
 
     def _step(self) -> None:
-        """Take an accepted step, with as much drag as it needs. Raises LoadStepFailed."""
+        """Take one accepted step, with the drag increased until it is accepted. Raises LoadStepFailed."""
         while True:
             before = self.path.factorisations
             state = self._creep_step()

@@ -80,7 +80,8 @@ class Ending(NamedTuple):
 
 
 def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault | None:
-    """Lead a path from rest, or from near the end, to load factor 1; return the fault of an earlier end."""
+    """Trace a path from rest, or from a start near the end, to load factor 1; return the fault if it ends
+    earlier."""
     if near is not None and _trace_near(path, near):
         return None
     plain = _take_load_steps(path)
@@ -100,7 +101,8 @@ def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault
 
 
 def _trace_near(path: Path[State, Forces], near: Start[State]) -> bool:
-    """Lead a path to a stable equilibrium close to a start; return False, the path unchanged, without one."""
+    """Move a path to a stable equilibrium close to a start; return False, with the path unchanged, if there
+    is none."""
     before = path.state, path.load_factor, path.factor
     try:
         state, factor = newton(path, near)
@@ -115,8 +117,8 @@ def _trace_near(path: Path[State, Forces], near: Start[State]) -> bool:
 
 
 def _trace_carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
-    """Lead a path from rest again, by small load steps, if large ones may have left its branch. plain: end of
-    the large steps, which is returned if no small one succeeds."""
+    """Trace a path again from rest, by small load steps, if large ones may have left its branch. plain: end
+    of the large steps, which is returned if no small one succeeds."""
     budget = 0 if isinstance(plain, Fault) else _careful_budget(path)
     if not budget:
         return Ending(plain)
@@ -133,7 +135,8 @@ def _trace_carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | 
 
 
 def _trace_snaps(path: Path[State, Forces], ending: Ending) -> Fault | None:
-    """Lead a path past the limit points at which it ends; return the fault of an end before load factor 1."""
+    """Continue a path beyond the limit points at which it ends; return the fault if it ends before load
+    factor 1."""
     limits, reason = path.limits, ending.reason
     while isinstance(reason, LoadStepFailed):
         halted = reason.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
@@ -213,8 +216,8 @@ def _refine(path: Path[State, Forces]) -> None:
 
 
 def _fault_at_end(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
-    """Return the fault of a path's end: its load factor, the attempts beyond, and a branching before it. The
-    last equilibrium's tangent shows whether the path had branched."""
+    """Return the fault at a path's end, with the load factor, the attempts to go beyond, and a bifurcation
+    before it. The last equilibrium's tangent shows whether the path had branched."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
     if path.load_factor > 0.0:
         status, note = stability(path)

@@ -55,7 +55,7 @@ class MotionMethod(Resumable, ABC, Generic[AnyState]):
         return {}
 
     def notes(self) -> str:
-        """Return a clause on steps accepted in spite of their error, "" without any."""
+        """Return a clause on steps accepted with a larger error than allowed, "" without any."""
         return "" if self.control is None else self.control.notes()
 
     def memory(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Slips that no rule forbids: numbers that are valid in SI units but implausible, nearly always by a unit.
+"""Implausible values in scenes: valid numbers that are probably in the wrong unit.
 
 A sentence for each names the key, the value, the unit and the spelling of the likely quantity. Implausible
 are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a thickness over a

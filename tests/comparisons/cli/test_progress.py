@@ -130,7 +130,7 @@ def test_quiet_leaves_results_and_warnings(monkeypatch, quiet, capsys):
     def command():
         with console.progress() as show:
             show(Progress(1, 2, "a run", "converged", None))
-        console.tell("kernels are compiled first")
+        console.print_status("kernels are compiled first")
         console.note("the result")
         console.warn("a warning")
 

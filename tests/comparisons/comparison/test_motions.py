@@ -187,7 +187,7 @@ def test_its_document_has_the_promised_keys_sample_by_sample():
     assert document["time"][-1] == pytest.approx(0.1)
 
 
-def test_files_of_a_run(kept):
+def test_files_of_a_run_agree_with_its_document(kept):
     found = kept("simulate")
     document, folder = found.document, found.folder
     lines = (folder / "history.csv").read_text().splitlines()

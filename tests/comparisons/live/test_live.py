@@ -46,7 +46,7 @@ def query_of(panel, number=1, calibration="consistent", **values):
     return json.dumps({"number": number, "values": start | values, "calibration": calibration})
 
 
-def test_the_page_is_there_with_a_policy(address):
+def test_the_page_has_a_content_security_policy(address):
     answer = got(address, urlsplit(address).path)
     assert answer.status == 200 and b"sheetbench live" in answer.read()
     assert "default-src 'none'" in answer.headers["Content-Security-Policy"]

@@ -83,7 +83,7 @@ def test_a_start_close_to_an_unstable_equilibrium_is_left_for_the_path_from_rest
         assert path.status is Status.CONVERGED and path.state == pytest.approx(1 - np.sqrt(0.5), rel=1e-8)
 
 
-def test_overflow_is_told():
+def test_overflow_ends_a_path_as_non_finite():
     path = trace_path(Spring(lambda u: np.inf if u else 0.0, lambda u: 1.0), DirectSolver())
     assert path.status is Status.NON_FINITE and path.load_factor == 0.0
 

@@ -65,7 +65,7 @@ def test_convergence_on_the_one_edge_scene(converged, graded, caps, slope):
 
 
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
-def test_curved_edge(name):
+def test_curved_edge_lies_on_its_arc_and_mirrors(name):
     scene = scenes.load(name)
     solution = solve(scene, 8)
     assert solution.status is Status.CONVERGED

@@ -11,7 +11,7 @@ from scipy.optimize import minimize_scalar
 import fem_reference
 import lumped
 from comparisons.sweep.differences import error
-from fem_reference.discrete.items import Dead
+from fem_reference.discrete.items import DeadLoad
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import spread
@@ -108,7 +108,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     point = np.array([at * SIDE, WIDTH / 2])
     element, value = shares(sheet.plan.mesh, point[None])
     dead = spread(sheet.plan, sheet.plan.elements[element], value, np.array([0.0, 0.0, -1.5 * LIMIT]))
-    sheet.items.append(Dead(sheet.on_coordinates(dead), float))
+    sheet.items.append(DeadLoad(sheet.on_coordinates(dead), float))
     moved, turned = np.zeros((2, len(nodes), 3))
     moved[:, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)
     phase, high = np.pi * nodes[:, 0] / SIDE, bent * height(shorter)

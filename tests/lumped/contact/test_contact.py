@@ -263,7 +263,7 @@ def test_without_an_obstacle_nothing_of_contact_runs():
     assert set(calls(laid_strip(0.05, obstacles=()))) <= {"contacts", "<genexpr>"}
 
 
-def test_what_statics_refuse():
+def test_statics_refuse_friction_linearity_and_free_motions():
     sheet = laid_strip(0.05, obstacles=(Plane(position=(0.0, 0.0, -0.1), friction=0.3),))
     with pytest.raises(SceneError, match=r"obstacle 1.friction = 0.3: at rest"):
         on_lattice(sheet, (5, 3, 2))

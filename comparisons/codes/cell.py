@@ -81,7 +81,7 @@ class Cell:
 
     def __post_init__(self) -> None:
         if abs(np.linalg.det(self.periods)) == 0.0 or not np.all(np.isfinite(self.nodes)):
-            raise BadInput(f"{self.name}: periods: two that span an area, and finite nodes")
+            raise BadInput(f"{self.name}: periods must span an area, and nodes be finite")
         if self.hinge and self.hinge not in HINGES:
             raise BadInput(f"{self.name}: hinge = {self.hinge!r}: one of {', '.join(HINGES)}, or none")
         if not self.triangles and not self.springs and not self.bricks:

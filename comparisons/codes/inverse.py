@@ -125,7 +125,7 @@ def sheet_of(
     if missing := [name for name in membrane if name not in values]:
         raise BadInput(f"{option} the numbers do not determine {', '.join(missing)} of the membrane")
     if row.hinge != "height" and {"hinge", "layers"} & values.keys() and not spacing:
-        raise BadInput(f"{option} --spacing: how far apart are the vertices? The bending depends on it")
+        raise BadInput(f"{option} --spacing: the distance of vertices is needed: bending depends on it")
     distance = spacing or 1.0
     if layered:
         shape = tetrahedral_cell(distance, values["layers"])

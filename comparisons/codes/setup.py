@@ -108,7 +108,7 @@ class CodeSetup(CellInScene):
             notes.append(warning)
         if any(isinstance(support, Point) for support in self.scene.supports):
             notes.append(
-                "A sheet held at a point gives way there without limit as a mesh gets finer: hold a part, "
+                "The displacement at a point support diverges as a mesh gets finer: hold a part, "
                 "[[support]] with where = { rectangle = … }, for meshes to agree."
             )
         if self.code.mesh == LAYERED and any(isinstance(s, Hinged | Point) for s in self.scene.supports):

@@ -98,7 +98,7 @@ class MotionComparison(Answer):
             return ""
         return (
             f"The {self.reference} itself is uncertain by {few(100 * bar)} % of its largest displacement: "
-            "use more --elements before judging by it."
+            "use more --elements before comparing with it."
         )
 
     def document(self) -> dict[str, Any]:

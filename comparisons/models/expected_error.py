@@ -56,7 +56,7 @@ LAW = 0.2  # of the largest stretch: difference of lattice and shell due to thei
 MOST = 5000  # masses in plan
 LARGE = 0.02  # estimates above it get advice on how to lower them
 ROUNDING = 1e-9  # of the largest displacement
-PINNED = "points that hold each other in the sheet's plane sink into it the more, the finer a grid is"
+PINNED = "point supports over-constrain the sheet's plane: their displacement diverges on finer grids"
 
 
 @dataclass(frozen=True)

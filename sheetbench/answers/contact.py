@@ -38,6 +38,6 @@ class ContactState:
     @property
     def notes(self) -> list[str]:
         """Return clauses on deep penetration and on points that barely touch."""
-        deep = f"the sheet is pressed in by {self.penetration:.2g} of its thickness"
-        near = f"{self.undecided} points are about to touch or to leave: stability undecided"
+        deep = f"the penetration is {self.penetration:.2g} of the thickness"
+        near = f"{self.undecided} points barely touch or barely do not: stability undecided"
         return [deep] * (self.penetration > DEEP) + [near] * (self.undecided > 0)

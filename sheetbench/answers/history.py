@@ -166,7 +166,7 @@ class History(Answer):
         spread = float(abs(self.numerical).max())
         scale = max(float(abs(energy).max()) for energy in self.energies.values())
         held = number(spread / scale if scale else spread, ".1e")
-        return [*notes, f"energy balance held to {held} of the largest energy"]
+        return [*notes, f"energy balance closes to {held} of the largest energy"]
 
     def choices(self) -> dict[str, Any]:
         return {"integrator": self.integrator, **self.settings}

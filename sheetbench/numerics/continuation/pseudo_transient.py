@@ -101,7 +101,7 @@ class _Creep(Generic[State, Forces]):
                 break
             self.drag, self.careful = FASTER * self.drag, CAUTION
             if self.drag > STIFFEST:
-                raise LoadStepFailed(Status.STEP_LIMIT, "the relaxation does not go on", 0.0)
+                raise LoadStepFailed(Status.STEP_LIMIT, "the relaxation makes no progress", 0.0)
         self.length = self.structure.length(self.state, state)
         self.state = self.structure.unextrapolated(state)
         self.careful -= 1

@@ -49,7 +49,7 @@ def solve(
         fallback = "elements of one size, for the bending"
         runs.insert(0, trace_sheet(division.with_grading(False).sheet, progress=progress, buckled=buckled))
     answer = solution_of(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
-    if (make_again := runs[0].sheet.again()) is None:
+    if (make_again := runs[0].sheet.rebuild()) is None:
         return answer
     return replace(answer, sensitivity=partial(_sensitivity, make_again, runs[0].path.state.q, answer))
 

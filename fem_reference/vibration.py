@@ -156,5 +156,5 @@ def modes(
         unknowns=sheet.unknowns,
         solve_seconds=now() - ready,
         sample=lambda points: np.stack([shape.moved_at(points, change) for change in changes]),
-        gradient_of=sheet.again() and gradient_of,
+        gradient_of=sheet.rebuild() and gradient_of,
     )

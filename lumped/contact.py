@@ -33,7 +33,7 @@ from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import constants_at
-from sheetbench.scenes.meaning.distances import Near, near, projector
+from sheetbench.scenes.meaning.distances import ContactPoints, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 48 parts
@@ -49,7 +49,7 @@ TO_CORNERS = np.kron(*2 * [np.array([[1, 0, 0], [0.5, 0, 0.5], [0, 0, 1]])])  # 
 # cells that may touch, vectors of their sides (`CellSurface.vectors`), their points (m, p) beside the
 # obstacle, and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives by depths
 # (…, n, n) [N/m]
-Pressed = tuple[Any, np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]
+Pressed = tuple[Any, np.ndarray, ContactPoints, np.ndarray, np.ndarray, np.ndarray]
 
 
 def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -112,13 +112,13 @@ class Contact:
         self.sizes = self.area[:, self.groups] if at_corners else by_part
         self.shares = self.basis if self.bent else self.weights
 
-    def _surface(self, at: Deformed, of: Any) -> tuple[np.ndarray, Near]:
+    def _surface(self, at: Deformed, of: Any) -> tuple[np.ndarray, ContactPoints]:
         vectors, sides = self._rest[of] + at[0][self.nodes[of]], np.empty((3, 0))
         if self.bent:
             vectors, sides = self.surface.vectors(vectors)
         return sides, near(self.obstacle, self.shares @ vectors, self.offset[of], at[1])
 
-    def near(self, at: Deformed) -> Near:
+    def near(self, at: Deformed) -> ContactPoints:
         """Return the positions and depths of the cells' points (m, p) relative to the obstacle."""
         return self._surface(at, ...)[1]
 
@@ -148,10 +148,10 @@ class Contact:
             reach = farthest + 1.01 * self.offset.max(axis=1)
             of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
             sides, found = self._surface(at, of)
-            energy, load, slope, _ = self._law(found.sunk[:, self.groups], of, tangent)
+            energy, load, slope, _ = self._law(found.penetration[:, self.groups], of, tangent)
             return of, sides, found, energy, load, slope
         before, (sides, after) = self.near(since), self._surface(at, ...)
-        start, end = before.sunk[:, self.groups], after.sunk[:, self.groups]
+        start, end = before.penetration[:, self.groups], after.penetration[:, self.groups]
         (had, *_), (has, last, *_) = self._law(start, ...), self._law(end, ...)
         _, load, slope, _ = self._law(0.5 * (start + end), ..., True)
         sunk, half = end - start, 0.5 * slope
@@ -253,7 +253,7 @@ class Contact:
         """Return a bound of the increase of squared frequencies ω² [1/s²] by contact; mass: (n,) [kg]."""
         return float((self._of_masses(self.area * self.share * self.full) / mass).max())
 
-    def move_freely(self, mass: np.ndarray, squared: float) -> None:
+    def set_motion_penalty(self, mass: np.ndarray, squared: float) -> None:
         """Set the penalty for a motion; squared: the springs' highest ω² [1/s²], which limits its
         stiffness."""
         self.divide(at_corners=isinstance(self.obstacle, Plane))
@@ -268,7 +268,7 @@ class Contact:
     def report(self, at: Deformed) -> tuple[ContactState, np.ndarray]:
         """Return the state of contact at an equilibrium and the pressure (n,) [Pa] at the masses."""
         found = self.near(at)
-        _, load, slope, deepest = self._law(found.sunk[:, self.groups], ..., True)
+        _, load, slope, deepest = self._law(found.penetration[:, self.groups], ..., True)
         first, area = self.groups[:, 0], self._of_masses(self.area)
         touched = slope.sum(axis=(2, 3)) / (self.share * self.full[:, first])
         pressed = self._of_masses(self._positive(load))

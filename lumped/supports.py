@@ -70,7 +70,7 @@ class Constraints:
             rest = self.lattice.positions[masses]
             g[masses] = edge.displaced(rest[:, :2], load_factor).lifted(rest[:, 2])
         if self.coupling is not None:
-            self.coupling.follow(g)
+            self.coupling.apply_held_corners(g)
         return g
 
     def prescribed(self, load_factor: float) -> np.ndarray:

@@ -159,7 +159,7 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
             curve = parameter(scene, f"curvature_{edge}")
             limit = max(2 * abs(curve.value), 1.5 / min(scene.sheet.lengths))
             yield Slider(curve.name, f"Curvature of edge {edge}", "1/m", 1.0, -limit, limit, curve.value)
-    masses, finest = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
+    masses, finest = largest_count(scene.sheet, MASSES_CAP - 1) + 1, largest_count(scene.sheet, ELEMENTS_CAP)
     grid, grading = str(lattice.grid or min(DEFAULT_MASSES, masses)), lattice.grading or 0.0
     if not (grid.isdecimal() and isinstance(grading, float | int) and isinstance(elements, int)):
         settings = f"grid = {grid}, grading = {grading}, elements = {counted(elements)}"
@@ -171,7 +171,7 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
     yield Slider("elements", "Shell elements along it", "", 1.0, 2, finest, min(elements, finest), whole=True)
 
 
-def most(sheet: Sheet, cap: int) -> int:
+def largest_count(sheet: Sheet, cap: int) -> int:
     """Return the largest number of near-square cells along the shorter side of a sheet with at most cap²
-    cells in all."""
+    cells."""
     return max((n for n in range(2, cap + 1) if prod(near_square(sheet, n)) <= cap**2), default=2)

@@ -138,7 +138,7 @@ def question(study: Study) -> list[tuple[str, str]]:
     """Return pairs of a topic and its sentence: of the scene, of each model's settings, of common settings;
     reasons of choices are among the notes."""
     scene = study.scene
-    sentences = study.attempt("scene", lambda: [*in_words(scene)]) if scene is not None else []
+    sentences = study.guarded("scene", lambda: [*in_words(scene)]) if scene is not None else []
     settings = study.run.get("settings")
     settings = settings if isinstance(settings, dict) else {}
     nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
@@ -169,7 +169,7 @@ def _shorten(key: str, value: Any) -> str:
 
 def pictures(study: Study) -> list[tuple[str, str]]:
     """Return names and data addresses of a study's pictures; of a picture in several formats the first."""
-    names = {Path(name).stem: name for name in reversed(study.ending(".png", ".svg", ".gif"))}
+    names = {Path(name).stem: name for name in reversed(study.with_suffix(".png", ".svg", ".gif"))}
     images = ((name, study.read(name, _encode_picture)) for name in reversed(names.values()))
     return [(name, address) for name, address in images if address]
 

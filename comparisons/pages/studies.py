@@ -119,34 +119,34 @@ class Study:
         if not path.resolve().is_relative_to(self.folder.resolve()):
             self.troubles.append(f"{name}: lies outside {self.folder.name}, left alone")
         elif not path.is_file():
-            self.troubles.append(f"{self.named(name)}: the manifest names it, but it is not there")
+            self.troubles.append(f"{self.path_of(name)}: the manifest names it, but it is not there")
         elif path.stat().st_size > LARGEST:
-            self.troubles.append(f"{self.named(name)}: too large for a page, left out")
+            self.troubles.append(f"{self.path_of(name)}: too large for a page, left out")
         else:
             try:
                 return reader(path)
             except RecursionError:
-                self.troubles.append(f"{self.named(name)}: damaged, nested too deeply")
+                self.troubles.append(f"{self.path_of(name)}: damaged, nested too deeply")
             except (Exception, SystemExit) as error:  # readers of meshes raise and exit as they like
-                self.troubles.append(f"{self.named(name)}: damaged, cannot be read: {foreign(error)}")
+                self.troubles.append(f"{self.path_of(name)}: damaged, cannot be read: {foreign(error)}")
         return None
 
-    def attempt(self, what: str, made: Callable[[], Any]) -> Any:
+    def guarded(self, what: str, made: Callable[[], Any]) -> Any:
         """Return the result of a call on the manifest's texts. If they are damaged, return None and add a
         sentence to `troubles`."""
         try:
             return made()
         except Exception as error:  # the document may hold anything
             self.troubles.append(
-                f"{self.named(what)}: cannot be shown: {type(error).__name__}: {foreign(error)}"
+                f"{self.path_of(what)}: cannot be shown: {type(error).__name__}: {foreign(error)}"
             )
         return None
 
-    def named(self, name: str) -> str:
+    def path_of(self, name: str) -> str:
         """Return a file's path below the root."""
         return f"{self.place}/{name}" if self.place else name
 
-    def ending(self, *suffixes: str) -> list[str]:
+    def with_suffix(self, *suffixes: str) -> list[str]:
         """Return names of its files with the given suffixes."""
         return [name for name in self.files if name.lower().endswith(suffixes)]
 
@@ -221,7 +221,7 @@ def tables(study: Study) -> list[PageTable]:
         name, rows = f"{description.get('name')}.csv", description.get("rows")
         if rows is None and name in study.files:
             rows = (study.read(name, _read_rows) or [])[1:] or None
-        table = study.attempt(name, partial(_restore_table, description, rows)) if rows is not None else None
+        table = study.guarded(name, partial(_restore_table, description, rows)) if rows is not None else None
         if table:
             collected.append(table)
     return collected

@@ -29,7 +29,7 @@ from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
 from sheetbench.answers.contact import ContactState
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.distances import Near, near, projector
+from sheetbench.scenes.meaning.distances import ContactPoints, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 SOFTER, ROUNDED, STIFFER = 0.01, 0.3, 100.0  # in motion: of E/h, over which part of h rounded; of patches
@@ -98,15 +98,15 @@ class Touching(SheetItem):
             out[:, :, 9:] = tangent_planes.first(vectors)
         return out
 
-    def near(self, shape: SheetShape) -> Near:
+    def near(self, shape: SheetShape) -> ContactPoints:
         """Return the positions and depths of points (faces, m, p) relative to the obstacle."""
         return near(self.obstacle, self._points(shape.vectors), self.offset, shape.sheet.instant(shape.at))
 
-    def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
+    def _pressed(self, shape: SheetShape) -> tuple[ContactPoints, Pressed]:
         """Return the points' positions and depths, and the energies, loads and load derivatives of their
         groups."""
         found = self.near(shape)
-        depth = found.sunk[..., self.groups]
+        depth = found.penetration[..., self.groups]
         k = self.share * self.full[:, self.groups] * self.of_groups + 0.0 * depth
         if not self.rounded:
             return found, patch.integrals(depth, k, 2)
@@ -165,7 +165,7 @@ class Touching(SheetItem):
         stiffer = copy(self)
         stiffer.full = (high.full - low.full) / over
         before, after = low.near(shape), high.near(shape)
-        deeper, turned = (after.sunk - before.sunk) / over, (after.slope - before.slope) / over
+        deeper, turned = (after.penetration - before.penetration) / over, (after.slope - before.slope) / over
         more = stiffer._pressed(shape)[1][1] + (slope @ deeper[..., self.groups, None])[..., 0]
         pull = self._at_points(more)[..., None] * found.slope + self._at_points(load)[..., None] * turned
         return self._onto(shape, pull)
@@ -210,6 +210,6 @@ class Touching(SheetItem):
         pressure = np.bincount(on, pressed.ravel()) / np.bincount(on, area.ravel())
         touched = slope.sum(axis=(0, 3, 4)) / (self.share * self.full[:, first])
         mean = np.where(energy > 0.0, 2.0 * energy / (load.sum(axis=3) + 1e-300), -np.inf)
-        deepest = np.maximum(found.sunk[..., self.groups].max(axis=3), mean).max(axis=0)
+        deepest = np.maximum(found.penetration[..., self.groups].max(axis=3), mean).max(axis=0)
         deepest /= self.thickness[:, first]
         return ContactState.of(deepest, touched, load), pressure

@@ -86,7 +86,7 @@ class Discrete(ABC):
         self.settings = {"elements": list(counts), **given}
         return self
 
-    def again(self) -> Callable[[], Self] | None:
+    def rebuild(self) -> Callable[[], Self] | None:
         """Return a function that builds the sheet again, to compute derivatives, or None for a sheet
         without."""
         return None

@@ -108,7 +108,7 @@ class DiscreteShell(DiscreteElements):
             raise BadInput(f"law = '{law}': a given section needs the law '{STRAIN_LAW}'")
         return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
 
-    def again(self) -> Callable[[], Self] | None:
+    def rebuild(self) -> Callable[[], Self] | None:
         law = () if self.linear else (self.law,)
         return None if self.section else partial(type(self), self.plan.mesh, self.scene, None, *law)
 

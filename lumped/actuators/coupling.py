@@ -15,7 +15,14 @@ import numpy as np
 
 from lumped.actuators.actuator import Drive, InterfaceForces, RigidMotion
 from lumped.actuators.chain import BoundChain
-from lumped.actuators.corners import SharedCorner, Tie, adjacent_base, held_ends, redundant, shared_corners
+from lumped.actuators.corners import (
+    SharedCorner,
+    Tie,
+    adjacent_base,
+    held_ends,
+    redundant_constraints,
+    shared_corners,
+)
 from lumped.coverage import held_columns, reached_parts
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene
@@ -59,7 +66,9 @@ class Coupling:
         self.free = free[self.masses :]
         if self.ties:
             rank = np.concatenate([chain.frames.rank for chain in self.bodies])
-            left_out = tuple(np.argwhere(self.algebraic)[redundant(self._free_gradient(), rank)].T)
+            left_out = tuple(
+                np.argwhere(self.algebraic)[redundant_constraints(self._free_gradient(), rank)].T
+            )
             self.algebraic[left_out] = free[left_out] = False
         self.multipliers = int(self.algebraic.sum())
 
@@ -97,7 +106,7 @@ class Coupling:
         ends = [(body, end) for body in self.bodies for end in body.corners]
         return [(body, end, self._layers[body.edge][-end]) for body, end in ends]
 
-    def follow(self, u: np.ndarray) -> None:
+    def apply_held_corners(self, u: np.ndarray) -> None:
         """Set chains' ends, and the masses bound to them, in a displacement u (size, 3) [m] to match the
         masses of held corners."""
         for chain, end, column in self.corners():

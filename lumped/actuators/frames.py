@@ -56,7 +56,8 @@ class Frames:
     base_joint: the joint or end (0 to segments) at which a base is a frame that joints join, None without
     one. joints: frame before, frame after and length in ds of every joint in order, the ground's frame being
     `segments`. quantities: the constraints (first `constraints` of them), then three measures a joint; rank:
-    (constraints,) 0 of a constraint that is always independent, else the order in which `redundant` tests it.
+    (constraints,) 0 of a constraint that is always independent, else the order in which
+    `redundant_constraints` tests it.
     """
 
     def __init__(

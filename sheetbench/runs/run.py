@@ -112,7 +112,7 @@ class SampleChecks:
         return np.array(list(vars(self).values()))
 
     @classmethod
-    def recall(cls, memory: np.ndarray) -> Self:
+    def restore(cls, memory: np.ndarray) -> Self:
         """Restore the checks from the numbers of `memory`."""
         return cls(*memory.tolist())
 
@@ -247,8 +247,8 @@ class Run(Generic[AnyState]):
             return {k.removeprefix(kind): v for k, v in checkpoint.items() if k.startswith(kind)}
 
         self.samples, self.steps = int(checkpoint["taken"]), int(checkpoint["steps"])
-        self.spent, self.watch = checkpoint["spent"], SampleChecks.recall(checkpoint["watch"])
-        self._method.recall(named("method_"))
+        self.spent, self.watch = checkpoint["spent"], SampleChecks.restore(checkpoint["watch"])
+        self._method.restore(named("method_"))
         fields = named("state_")
         self.resumed_from = float(fields.pop("time"))
         self._progress(self.resumed_from)

@@ -91,7 +91,7 @@ def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -
             if not isfinite(relative):
                 raise LoadStepFailed(Status.NON_FINITE, "a number overflowed", first.length)
             if relative <= close or run.at_rest(imbalance, relative):
-                return run.state, run.alike()
+                return run.state, run.reusable_factor()
             if run.stalls():
                 raise LoadStepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
             if path.factorisations >= path.limit:
@@ -118,7 +118,7 @@ class _Newton(Generic[State, Forces]):
         self.last_imbalance, self.reused_last = np.inf, False
         self.distance = self.stress_error = 0.0
 
-    def alike(self) -> Factor | None:
+    def reusable_factor(self) -> Factor | None:
         """Return the last factors if the tangent has not changed noticeably since, else None."""
         unchanged = self.structure.linear or max(self.distance, self.stress_error) <= self.path.alike
         return self.factor if unchanged else None
@@ -143,7 +143,7 @@ class _Newton(Generic[State, Forces]):
         at, last = (self.state, forces, self.target), self.lengths[-1]
         refined = relative <= self.path.limits.refine_below
         stale = self.reused_last and imbalance > STALE * self.last_imbalance
-        near = self.alike() if refined and not stale else None
+        near = self.reusable_factor() if refined and not stale else None
         reused = None if near is None else _reuse(self.path, at, near)
         step = reused or self.structure.correct(*at, self.path.count)
         step = step or self._correct_assembled(at, not refined)

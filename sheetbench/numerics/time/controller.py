@@ -36,7 +36,7 @@ class Resumable:
         """Return the attributes that a resumed run needs besides the state."""
         return {name: getattr(self, name) for name in self.remembered}
 
-    def recall(self, memory: dict[str, Any]) -> None:
+    def restore(self, memory: dict[str, Any]) -> None:
         """Restore the attributes from `memory`."""
         for name in self.remembered:
             value = np.asarray(memory[name])

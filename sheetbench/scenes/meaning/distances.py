@@ -31,17 +31,17 @@ STEPS, ROUNDING = 60, 1e-14  # of Newton's method along a way; of |y|²
 GRID = 65  # points a side of the outline, or along an edge, that a distance is looked for at
 
 
-class Near(NamedTuple):
+class ContactPoints(NamedTuple):
     """Positions and depths of points relative to an obstacle. across: position (…, 3) [m] from the obstacle's
     middle, across its axis if it has one; touch: ρ (…) [m], infinite for a plane; depth: o − φ (…) [m],
-    negative without contact; sunk: δ (…) [m], the depth in the penalty; slope: n = −∂δ/∂x (…, 3), with ∂n/∂x
+    negative without contact; penetration: δ (…) [m], as in the penalty; slope: n = −∂δ/∂x (…, 3), with ∂n/∂x
     = `projector` · diag(curvature (…, 1 or 3))."""
 
     obstacle: AnyObstacle
     across: np.ndarray
     touch: np.ndarray
     depth: np.ndarray
-    sunk: np.ndarray
+    penetration: np.ndarray
     slope: np.ndarray
     curvature: np.ndarray
 
@@ -50,7 +50,7 @@ class Near(NamedTuple):
         """∇φ (…, 3)."""
         return np.asarray(self.slope / (np.linalg.norm(self.slope, axis=-1, keepdims=True) + 1e-300))
 
-    def mean(self, start: Near) -> Near:
+    def mean(self, start: ContactPoints) -> ContactPoints:
         """Return the points with the mean slope n̄ = (y₀ + y₁)/2ρ of the step from `start`, for which n̄·Δx =
         −Δδ exactly and ∂n̄/∂x₁ = P/2ρ; components of n̄ are reduced where the nearest point of a core moves
         with x."""
@@ -73,7 +73,7 @@ class Near(NamedTuple):
         tangential = rubbed[..., None] * (np.eye(3) - dyad(n) - dyad(sliding / slip))
         return -pull - rubbed * sliding, -normal - tangential
 
-    def free_share(self, start: Near) -> float:
+    def free_share(self, start: ContactPoints) -> float:
         """Return the largest share of the points' straight paths from `start` on which no point is deeper
         than half the radius; 1 if none is anywhere."""
         if isinstance(self.obstacle, Plane):
@@ -104,13 +104,15 @@ def projector(obstacle: AnyObstacle) -> np.ndarray:
     return np.eye(3) - dyad(obstacle.direction)
 
 
-def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]) -> Near:
+def near(
+    obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]
+) -> ContactPoints:
     """Return the positions and depths of points x (…, 3) [m] relative to an obstacle. offset: distance (…)
     [m] from the obstacle at which a point touches it; at: load factor and time of the obstacle's `place`."""
     y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
         normal, depth = np.broadcast_to(obstacle.direction, y.shape), offset - y @ obstacle.direction
-        return Near(obstacle, y, depth + np.inf, depth, depth, normal, 0.0 * y[..., :1])
+        return ContactPoints(obstacle, y, depth + np.inf, depth, depth, normal, 0.0 * y[..., :1])
     across, core = y @ projector(obstacle), obstacle.core
     y = across - np.clip(across, -core, core)
     squared = (y * y).sum(axis=-1)
@@ -119,7 +121,7 @@ def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[flo
     slope = y * curvature
     if core.any():
         depth, curvature = depth + (core - abs(across)).min(axis=-1).clip(0.0), curvature * (y != 0.0)
-    return Near(obstacle, across, touch, depth, sunk, slope, curvature)
+    return ContactPoints(obstacle, across, touch, depth, sunk, slope, curvature)
 
 
 def scale_distance(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:

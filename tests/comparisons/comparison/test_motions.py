@@ -160,7 +160,7 @@ def test_a_growth_is_told_from_a_hundredth_and_ends_a_run_from_a_tenth():
         status, message = watch.ending("")
         assert status is Status.CONVERGED
         assert ("off by" in message) == (abs(change) > 0.01)
-        assert SampleChecks.recall(watch.memory()).ending("") == (status, message)
+        assert SampleChecks.restore(watch.memory()).ending("") == (status, message)
 
 
 def test_what_the_rule_takes_is_an_energy_of_its_own():

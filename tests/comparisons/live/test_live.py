@@ -20,7 +20,7 @@ from terminals import COMMAND, Terminal
 
 import sheetbench as sb
 from comparisons.live import server
-from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
+from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, largest_count
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
@@ -139,7 +139,7 @@ def test_sliders_have_ends_and_begin_at_the_scene(name):
     turned = {"angle": 0.5, "loads": 2.0} if name == "woven" else {}
     moved = panel.read(query_of(panel, **turned)).scene
     assert name == "bent" or (moved.material.angle, moved.loads[0].last_factor) == (0.5, 2.0)
-    assert 10 * most(SCENE.sheet.replace(length_y=10 * SCENE.sheet.length_x), 32) ** 2 <= 32 * 32
+    assert 10 * largest_count(SCENE.sheet.replace(length_y=10 * SCENE.sheet.length_x), 32) ** 2 <= 32 * 32
 
 
 def test_answers_are_those_of_compare(address, panel):

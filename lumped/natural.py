@@ -81,7 +81,8 @@ class _Natural:
     stiffness: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def grown(self, strain: np.ndarray) -> np.ndarray:
-        """Return the stiffness by the drawn sides of springs that resist strains of the natural sides."""
+        """Return the stiffness relative to the drawn sides, of springs that resist strains relative to the
+        natural sides."""
         family = self.family
         if isinstance(family, Links) or not strain.any():
             return family.stiffness

@@ -1,5 +1,5 @@
-"""Moduli of a cell beside a sheet's, the error that remains on the finest mesh, and parameters of codes for
-meshes of the cell.
+"""Moduli of a repeated cell compared with a sheet's, the error of its finest mesh, and the corresponding
+parameters of codes.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class CellInScene(Answer):
 
     @property
     def succeeded(self) -> bool:
-        """Whether the error in the scene is known, or needs not be."""
+        """Whether the error in the scene is known or was not requested."""
         return not self.missing
 
     def complaints(self) -> list[str]:
@@ -92,7 +92,8 @@ class ModulusRow:
 
 @dataclass(frozen=True, repr=False)
 class CellModuli(CellInScene):
-    """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
+    """Coefficients of a cell for a scene's sheet, the resulting moduli, and the error of fine meshes in the
+    scene.
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
     nearest to the sheet's, and the error that they leave, where that is another."""

@@ -1,4 +1,4 @@
-"""A scene in another code's words: parameters, mesh, and the files that the code reads.
+"""Conversion of a scene for another code: parameters, mesh, and the files that the code reads.
 
 Hinges have the coefficient that is best in the scene, as far as a cell of that mesh can be right there, and
 without a scene's answer at rest the one whose moduli are nearest to the sheet's. A hinge on a clamp bends
@@ -189,7 +189,7 @@ def setup(
     coefficients: Mapping[str, float] | None = None,
     given: Mapping[str, float] | None = None,
 ) -> CodeSetup:
-    """Return a scene in a code's words.
+    """Return a scene's parameters, mesh and files for a code.
 
     best: whether hinges are those best in the scene; named: whether the user named the scene: without, no
     number is of it. The answer has no error, and a note, for a scene whose sheet has no stable equilibrium.

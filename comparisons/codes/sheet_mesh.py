@@ -154,8 +154,8 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
 
 
 def _held_rows(shape: Shape, sheet: Sheet, squares: int) -> list[np.ndarray] | None:
-    """Return the first and last rows of vertices, along x and along y, that a point or a rectangle holds; or
-    None where its sides are not on rows of vertices."""
+    """Return the first and last rows of vertices, along x and along y, that a point or a rectangle holds, or
+    None if its sides are not on rows of vertices."""
     assert shape.rectangle is not None  # `refusal` has other shapes
     sides, rows = (shape.rectangle.x, shape.rectangle.y), []
     for ends, length, count in zip(sides, sheet.lengths, near_square(sheet, squares), strict=True):

@@ -74,7 +74,8 @@ def far_apart_note(
 
 
 def _converges_within(lattice: Resolved[Lattice], reference: Solution, error: float) -> bool:
-    """Return whether the lattice converges to within an error of the reference if both lie on one branch."""
+    """Return whether the lattice would converge to within `error` of the reference if both lay on one
+    branch."""
     return (
         converges(lattice.spec, lattice.grid)
         and not lattice.scene.actuators

@@ -73,8 +73,8 @@ class Panel:
     """The sliders of a scene."""
 
     def __init__(self, scene: Scene, elements: Count = ELEMENTS, lattice: Lattice | None = None) -> None:
-        """Start with the given elements and lattice; k has a slider if the lattice has one. Raises BadInput
-        for a value out of bounds."""
+        """Make the sliders, set to the given elements and lattice; k has a slider if the lattice has one.
+        Raises BadInput for a value out of bounds."""
         self.scene = scene
         self._lattice = lattice or Lattice()
         self.sliders = {s.name: s for s in _make_sliders(scene, elements, self._lattice)}

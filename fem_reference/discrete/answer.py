@@ -65,7 +65,7 @@ def trace_sheet(
     started = now()
     sheet = make()
     ready = now()
-    start, slenderness = near and near(sheet), sheet.scene.sheet.thickness / sheet.lever
+    start, slenderness = near and near(sheet), sheet.scene.sheet.thickness / sheet.longer_side
     settle = relax if sheet.creeps else None
     options = ({"limits": EXACT} if sheet.linear else {}) | options
     options |= {"near": start, "slenderness": slenderness}

@@ -42,7 +42,7 @@ class Touching(SheetItem):
     """Contact of a sheet with one obstacle. share: of the penalty's stiffness in use; basis: (p, 9) shape
     functions at an element's points; shares: (p, n) weights of its nodes and of a (`tangent_planes`) in the
     surface there; hats: (p, 9) nonnegative weights of nodes; groups: (t, 9) points of each part, or one node
-    nine times; levers: ζ (faces, m, 9) [m] of elements' nodes."""
+    nine times; heights: ζ (faces, m, 9) [m] of elements' nodes."""
 
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.on = name, obstacle, plan.elements
@@ -54,7 +54,7 @@ class Touching(SheetItem):
         self.bent = not (moving or at_nodes)
         stiffness = (STIFFER if self.bent else 1.0) * constants.stretching / constants.thickness**2
         full = (weight * stiffness) @ AT_GAUSS[0] / of_nodes
-        self.levers = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), thickness)
+        self.heights = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), thickness)
         if at_nodes:
             self.basis = self.hats = self.shares = np.eye(9)
             self.groups, self.area = np.repeat(np.arange(9), 9).reshape(9, 9), of_nodes
@@ -77,7 +77,7 @@ class Touching(SheetItem):
 
     def _faces(self, vectors: np.ndarray) -> np.ndarray:
         """Return φ + ζ d (faces, m, 9, 3) of vectors (m, 18, 3)."""
-        return np.asarray(vectors[:, :9] + self.levers[..., None] * vectors[:, 9:])
+        return np.asarray(vectors[:, :9] + self.heights[..., None] * vectors[:, 9:])
 
     def _points(self, vectors: np.ndarray) -> np.ndarray:
         """Return x (faces, m, p, 3) [m] of vectors (m, 18, 3)."""
@@ -91,9 +91,9 @@ class Touching(SheetItem):
         """Return the derivatives (faces, k, n, 3, 18, 3) of the faces' nodal positions and of a
         (`tangent_planes`) by the vectors (k, 18, 3) of elements `on`."""
         nodes, size = np.arange(9), self.shares.shape[1]
-        out = np.zeros((len(self.levers), len(on), size, 3, 18, 3))
+        out = np.zeros((len(self.heights), len(on), size, 3, 18, 3))
         out[:, :, nodes, :, nodes] = np.eye(3)
-        out[:, :, nodes, :, nodes + 9] = np.moveaxis(self.levers[:, on], 2, 0)[..., None, None] * np.eye(3)
+        out[:, :, nodes, :, nodes + 9] = np.moveaxis(self.heights[:, on], 2, 0)[..., None, None] * np.eye(3)
         if self.bent:
             out[:, :, 9:] = tangent_planes.first(vectors)
         return out

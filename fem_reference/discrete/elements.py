@@ -180,7 +180,7 @@ class DiscreteElements(Discrete):
         return sum(self.element.energies(shape.strain).values())
 
     def norm_of(self, force: np.ndarray, scale: np.ndarray | float = 1.0) -> float:
-        """Return the norm [N] of forces; scale: 1, or the lever for forces on directors."""
+        """Return the norm [N] of forces; scale: 1, or the longer side for forces on directors."""
         return float(np.linalg.norm(force / scale, self.norm))
 
     def scale_of(self, body: Rods) -> np.ndarray:
@@ -188,7 +188,7 @@ class DiscreteElements(Discrete):
         return self.scale[body.rows].reshape(body.elements.reference.shape)
 
     def summed(self, shape: SheetShape) -> float:
-        """Return Σ |B| |s| [N], the magnitudes of the forces' terms, on directors over the lever."""
+        """Return Σ |B| |s| [N], the magnitudes of the forces' terms, on directors over the longer side."""
         magnitudes = self.element.magnitudes(shape.operator, shape.elastic)
         total = float((magnitudes / self.scale[3 * self.sites[0]]).sum())
         for body in self.bodies:

@@ -47,7 +47,7 @@ class Discrete(ABC):
 
     Unknowns are x; forces in N; at: load factor or time [s]. norm: order of the norm that residuals are
     measured in; linear: strains are linear in the coordinates, and loads act on the flat sheet. any_strain:
-    whether the law of strain is meant for large strains. lever: the flat sheet's longer side [m].
+    whether the law of strain is meant for large strains. longer_side: the flat sheet's longer side [m].
     own_outline: whether the mesh has its outline in place of the scene's sheet. bodies: the rods, if any;
     commanded: the scene whose chains have the curvatures that the commands' factors multiply."""
 
@@ -126,14 +126,14 @@ class Discrete(ABC):
         return np.column_stack([self.plan.nodes, np.zeros(self.nodes)])
 
     @cached_property
-    def lever(self) -> float:
+    def longer_side(self) -> float:
         """Longer side of the flat sheet [m]."""
         return float(np.ptp(self.plan.nodes, axis=0).max())
 
     @cached_property
     def scale(self) -> np.ndarray:
-        """Scale (N,) of coordinates: 1 for positions, the lever for directors."""
-        return np.where(np.arange(self.size) < self.first_director, 1.0, self.lever)
+        """Scale (N,) of coordinates: 1 for positions, the longer_side for directors."""
+        return np.where(np.arange(self.size) < self.first_director, 1.0, self.longer_side)
 
     @property
     def symmetric(self) -> bool:

@@ -106,7 +106,7 @@ class Static(Creeping[StaticState, Forces]):
     def gap(self, state: StaticState, load_factor: float) -> float:
         """Return the largest distance from prescribed displacements over the sheet's size."""
         step = self.sheet.gap_step(self.shape(state, load_factor)) * self.sheet.scale
-        return float(np.abs(step).max() / self.sheet.lever)
+        return float(np.abs(step).max() / self.sheet.longer_side)
 
     def linearised(
         self, state: StaticState, forces: Forces, load_factor: float, mixed: bool = True
@@ -147,4 +147,4 @@ class Static(Creeping[StaticState, Forces]):
 
     def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)
-        return float(np.abs(moved).max() / self.sheet.lever)
+        return float(np.abs(moved).max() / self.sheet.longer_side)

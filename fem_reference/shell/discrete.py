@@ -119,7 +119,8 @@ class DiscreteShell(DiscreteElements):
         return state and state.made(make)
 
     def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
-        """Return sites (m, p, 2) [m] of e0 and k0 (m, p, 2, 2), and a function that makes strains of both."""
+        """Return the points (m, p, 2) [m] at which e0 and k0 (m, p, 2, 2) are evaluated, and a function from
+        both to the elements' natural strains."""
         return AT_SITES @ self.plan.corners, partial(natural_strains, self.plan.corners)
 
     def with_scene(self, scene: Scene) -> Self:

@@ -167,8 +167,8 @@ class BoundChain:
         return moment + on_base + self.frames.ground_couple(at, self._weights(interface.y, by_measure))
 
     def place_corner(self, end: int, layers: np.ndarray, displacement: np.ndarray) -> np.ndarray:
-        """Return the displacement (rows, 3) [m] that follows a corner's layers, at the heights (l,) [m] and
-        displaced by (l, 3) [m]."""
+        """Return the chain's displacement (rows, 3) [m] at an end held by a corner whose layers, at heights
+        (l,) [m], are displaced by (l, 3) [m]."""
         frames, spread = self.frames, layers - layers.mean()
         tilt = spread @ displacement / (spread @ spread)
         y = np.zeros((self.rows, 3))
@@ -203,8 +203,8 @@ class BoundChain:
         return np.tile(total / len(self.names), (len(self.names), 1, 1))
 
     def _joint_springs(self, drive: Drive) -> tuple[tuple[np.ndarray, np.ndarray], float]:
-        """Return stiffness (j,) [N·m/rad] and rest angles (j, 2) of all chains as one, and the energy [J]
-        that is stored because their rest angles differ."""
+        """Return the stiffness (j,) [N·m/rad] and rest angles (j, 2) of the chain equivalent to all chains
+        together, and the energy [J] stored because their rest angles differ."""
         frames, stiffness = self.frames, self._stiffness.sum(axis=0)
         curvature = np.array([pieces @ values.at(drive.time) for pieces, values in self._commands])
         natural = drive.load_factor * curvature[:, frames.command] * frames.length * frames.share

@@ -33,7 +33,7 @@ from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, require_error
 
 ERROR = 3e-5  # of a step
-FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
+LINEAR_SHARE = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
 ENERGY = 10.0  # of a step that touches something, times its error relative to the largest: losses add up
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
@@ -132,7 +132,7 @@ class Esdirk(Integrator):
         fastest = float(np.abs(system.accelerate(force)).max())
         if goal > 0.0:
             self.control.step = self._first = min(self.control.step, FIRST * np.sqrt(goal / fastest))
-        self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
+        self._largest = max(LINEAR_SHARE * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
         """Return the state with its acceleration just after its time, and the largest step [s] before the

@@ -48,7 +48,7 @@ REFUSED = {
     "at = [0.1, 0.05]\nmass = -0.1": "mass 1.mass = -0.1: must be greater than 0",
     'at = [0.1, 0.05]\nmass = "5 mm"': "'5 mm' is a length; a mass is needed: 20 g",
     f"mass = 0.1\ninertia = [1.0, -1.0, 0.0]\n{DISC(0.1)}": "mass 1.inertia 2 = -1.0: must be 0 or more",
-    "at = [0.1, 0.05]\nmass = 0.1\ninertia = [1.0, 1.0, 0.0]": "inertia: the rotation of a point .* give where, the part",
+    "at = [0.1, 0.05]\nmass = 0.1\ninertia = [1.0, 1.0, 0.0]": "inertia: the rotation of .* give where, the",
     'at = [0.1, 0.05]\nweight = "5 N"': r"mass 1.weight .* unknown key; known: at, inertia",
 }  # fmt: skip
 

@@ -63,7 +63,7 @@ from sheetbench.scenes.meaning.composition import own_patches
 from sheetbench.scenes.objects.obstacles import Cylinder
 from sheetbench.scenes.objects.supports import Point, place, points_overconstrain
 
-CAUTION = 3.0  # factor of e in the bar by two meshes
+TWO_MESH_FACTOR = 3.0  # factor of e in the bar by two meshes
 LEAST_ORDER, ASSUMED_ORDER = 0.5, 2.0
 BY_LAYER = 2.0  # loss of order where none of the layer is resolved
 TWIST = 0.3  # the largest share of η that counts
@@ -185,7 +185,7 @@ def estimate(
     largest = min(largest, IN_ROWS - BY_LAYER * layers[0].share)
     if len(answers) == 2:
         order, trusted, converging = np.full(fine.shape, np.nan), rounding, bool(rounding.all())
-        field_order, weight, neighbours = min(ASSUMED_ORDER, largest), CAUTION, 0.0
+        field_order, weight, neighbours = min(ASSUMED_ORDER, largest), TWO_MESH_FACTOR, 0.0
         change = step / (ratio**field_order - 1.0)
     else:
         coarse_step = answers[1] - answers[2]

@@ -75,7 +75,7 @@ def undamped(code: Code, material: Material) -> str:
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 SPACINGS, MOST = 8, 1e4  # cells along the shorter side, unless a spacing is given; at most
-MISSED = 0.01  # of the sheet's modulus 11
+LARGEST_DIFFERENCE = 0.01  # of the sheet's modulus 11
 COEFFICIENTS: tuple[Any, ...] = ("coefficient", "unit", NUMBER("#.6g", "value"))
 
 
@@ -154,7 +154,7 @@ class CellModuli(CellInScene):
         return self._describe_error() or super().result()
 
     def notes(self) -> list[str]:
-        rows = (row for row in self.rows if abs(row.difference) > MISSED)
+        rows = (row for row in self.rows if abs(row.difference) > LARGEST_DIFFERENCE)
         missed = [f"{row.modulus} by {number(100 * row.difference, '+.0f')} %" for row in rows]
         notes = ["difference: over the sheet's A11, D11 or S."]
         if missed:

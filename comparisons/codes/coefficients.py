@@ -110,8 +110,8 @@ def _constrain_motion(nodes: np.ndarray) -> np.ndarray:
 
 COARSE = 8  # elements of the shells of a search
 STIFF = 1e3  # times κGh, of a cell whose normals stay normal
-LOST = 1e3  # error of moduli in a search with which the sheet has no stable equilibrium
-TURNED = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0.5, 2.0]])
+FAILED_ERROR = 1e3  # error of moduli in a search with which the sheet has no stable equilibrium
+MANDEL_WEIGHTS = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0.5, 2.0]])
 
 
 def nearest(
@@ -140,7 +140,7 @@ def nearest(
     def weighted(values: np.ndarray) -> np.ndarray:
         moduli = moduli_of(cell, fixed_values | dict(zip(names, values * sizes, strict=True)))
         pairs = ((moduli.membrane, target.membrane), (moduli.bending, target.bending))
-        return np.concatenate([(TURNED * (a - b) / b[0, 0]).ravel() for a, b in pairs])
+        return np.concatenate([(MANDEL_WEIGHTS * (a - b) / b[0, 0]).ravel() for a, b in pairs])
 
     if not names:
         return fixed_values
@@ -185,11 +185,11 @@ def least_error(scene: Scene, moduli: Callable[[float], Moduli], low: float, hig
         try:
             return error_of(moduli(float(np.exp(logarithm))))
         except NoEquilibrium:
-            return LOST
+            return FAILED_ERROR
 
     bounds = (float(np.log(low)), float(np.log(high)))
     minimum = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
-    if minimum.fun == LOST:
+    if minimum.fun == FAILED_ERROR:
         raise NoEquilibrium("no coefficients of this mesh have a stable equilibrium in this scene")
     return float(np.exp(minimum.x))
 
@@ -278,5 +278,5 @@ def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[st
 
 def _fit_factor(form: np.ndarray, target: np.ndarray) -> float:
     """Return the factor on a form that minimises its distance from a target, in Mandel's norm."""
-    weighted = TURNED**2 * form
+    weighted = MANDEL_WEIGHTS**2 * form
     return float(np.sum(weighted * target) / np.sum(weighted * form))

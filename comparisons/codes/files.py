@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 Keys = Mapping[str, float]
 JSON = "sheet.json"
-FAR = 50.0  # radii: half the length of a cylinder that touches the sheet
+HALF_LENGTH = 50.0  # radii: half the length of a cylinder that touches the sheet
 MJCF = """\
 <mujoco model="sheet">
 <option timestep="0.002" integrator="discrete" gravity="{gravity}"/>
@@ -46,7 +46,7 @@ MJCF = """\
 {loads}</mujoco>
 """
 JOINT = '<joint name="{name}{axis}" type="slide" axis="{along}" damping="0.0"/>'
-SMALL = '<inertial pos="0 0 0" mass="{mass!r}" diaginertia="1e-09 1e-09 1e-09"/>'  # it does not turn
+POINT_INERTIA = '<inertial pos="0 0 0" mass="{mass!r}" diaginertia="1e-09 1e-09 1e-09"/>'  # it does not turn
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def mujoco(of: Problem) -> str:
         if not held:
             axes = zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), strict=True)
             joints = "".join(JOINT.format(name=name, axis=axis, along=along) for axis, along in axes)
-            joints += SMALL.format(mass=mass)
+            joints += POINT_INERTIA.format(mass=mass)
             loads |= {f"{name}{axis}": value for axis, value in zip("xyz", force, strict=True) if value}
         bodies.append(f'<body name="{name}" pos="{join_numbers(place)}">{joints}<site name="{name}"/></body>')
     motors = "".join(f'<motor joint="{joint}"/>\n' for joint in loads)
@@ -101,9 +101,9 @@ def mujoco(of: Problem) -> str:
 
 
 def _geom(obstacle: Mapping[str, Any]) -> str:
-    """Return an obstacle as a MuJoCo geom; half the length of a cylinder is FAR times its radius."""
+    """Return an obstacle as a MuJoCo geom; half the length of a cylinder is HALF_LENGTH times its radius."""
     along, radius = obstacle.get("normal", obstacle.get("axis")), obstacle.get("radius", 0.0)
-    size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {FAR * radius!r}"}
+    size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {HALF_LENGTH * radius!r}"}
     turned = "" if along is None else f' zaxis="{join_numbers(along)}"'
     kind, at, friction = obstacle["kind"], join_numbers(obstacle["position"]), obstacle["friction"]
     return (

@@ -46,7 +46,7 @@ from sheetbench.scenes.objects.supports import Hinged, Point
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
 PEAK = 2.0  # shear next to corners, over the mean along held edges
-NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
+CLAMP_OFFSET = 0.02  # of a square's side, from a clamp to the row beyond it
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,7 +73,7 @@ class CodeSetup(CellInScene):
         """Mesh and parameters, for the files. Raises BadInput for what codes of triangles do not have."""
         keys = {**{key.name: key.value for key in self.keys}, **self.given}
         material, tetrahedra = self.scene.material, None
-        near = NEAR if self.best and self.code.hinge == "height" else 1.0
+        near = CLAMP_OFFSET if self.best and self.code.hinge == "height" else 1.0
         flat = sheet_mesh(self.scene, self.squares, self.cell.name, near)
         if self.code.mesh == LAYERED:
             flat, tetrahedra = with_layers(self.scene, flat, self.squares, self.coefficients["layers"])

@@ -42,7 +42,7 @@ LOOPBACK = "127.0.0.1"
 MESSAGE = 4096  # bytes of a question at most
 CONNECTIONS = 32  # open at once
 SHELL_CELLS = 24  # along the shorter side, of the picture of the shell
-KEPT = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")  # of a solution
+SENT_KEYS = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")  # of a solution
 FAULT = "a fault of the program; details are in its terminal"
 TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
 HEADERS = {  # of every answer: scripts, styles and answers of this server alone, and nobody's frame
@@ -126,7 +126,7 @@ class RequestHandler(BaseHTTPRequestHandler):
         length, refused = self.headers.get("Content-Length", ""), self.refusal(needs_origin=True)
         if not (length.isascii() and length.isdigit() and len(length) < 9 and int(length) <= MESSAGE):
             refused = refused or HTTPStatus.REQUEST_ENTITY_TOO_LARGE
-        if refused or self.what not in WAYS:
+        if refused or self.what not in SOLVERS:
             return self.reply(refused or HTTPStatus.NOT_FOUND)
         try:
             question = self.server.panel.read(self.rfile.read(int(length)))
@@ -134,7 +134,7 @@ class RequestHandler(BaseHTTPRequestHandler):
                 found = self.server.shells.submit(shell, question).result()
             else:
                 with self.server.lattice_lock:
-                    found = WAYS[self.what](question)
+                    found = SOLVERS[self.what](question)
             self.reply(HTTPStatus.OK, found)
         except BadInput as error:
             self.reply(HTTPStatus.BAD_REQUEST, {"said": str(error)})
@@ -190,10 +190,10 @@ def _encode_answer(question: Question, solution: Solution, model: str, mesh: Fie
     fields = [{**flat, "kind": "difference"}] if model == "lattice" else []  # until the shell has answered
     sheet = viewer_sheet(model, mesh, model.capitalize(), fields, question.scene)
     found = {"number": question.number, "said": said, "seconds": solution.solve_seconds, "sheet": sheet}
-    return found | {name: known[name] for name in KEPT}
+    return found | {name: known[name] for name in SENT_KEYS}
 
 
-WAYS = {"lattice": lattice, "shell": shell}
+SOLVERS = {"lattice": lattice, "shell": shell}
 
 
 def _load_assets(panel: Panel) -> dict[str, tuple[Any, str]]:

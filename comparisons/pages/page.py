@@ -31,7 +31,7 @@ from sheetbench.scenes.meaning.words import in_words
 
 PACKAGE = "comparisons.pages"
 AS_THEY_ARE = ("title", "verb", "place", "command", "date", "result", "notes", "complaints")  # of a study
-MANY = 4  # studies from which on each is folded
+FOLDED_FROM = 4  # studies from which on each is folded
 TIMES = ("duration", "step", "largest_step", "every")
 MACHINE = {"processor": "{}", "cpu_count": "{} processors", "system": "{}", "python": "Python {}"}
 UNITS = {"layer_distance": "m", "k": "N/m", **dict.fromkeys(TIMES, "s")}  # of settings
@@ -56,7 +56,7 @@ def page(contents: FolderContents, title: str) -> str:
         title=title,
         studies=values,
         ambiguous={title for title, count in titles.items() if count > 1},
-        brief=len(values) > MANY,
+        brief=len(values) > FOLDED_FROM,
         troubles=list(dict.fromkeys(troubles)),
         made_with=made_with(),
         policy=policy(script, style),

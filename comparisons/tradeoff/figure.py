@@ -19,7 +19,7 @@ PANEL, NAMES, TITLE = 3.1, 0.2, 0.25  # inches: of a panel, a row of names, the 
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 CORNERS = ((-1, -1), (1, 1), (-1, 1), (1, -1))  # positions of a size next to its point, by preference
 SIZE = "size of a row"
-STALLED = 0.25  # order below which an error is no smaller on finer meshes
+LEAST_ORDER = 0.25  # order below which an error is no smaller on finer meshes
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 
 
@@ -45,7 +45,7 @@ def compose(tradeoff: Tradeoff | DynamicTradeoff, style: FigureStyle = PLAIN) ->
             line["ls"] = (0, (4, 1.5))
         label = plain(name)
         if slope is not None:
-            label += f"  (order {slope:.1f})" if slope >= STALLED else "  (does not converge)"
+            label += f"  (order {slope:.1f})" if slope >= LEAST_ORDER else "  (does not converge)"
         _against_time(left, rows, [i in on_front for i in positive], line, label, tradeoff.COST[1])
         points = [(1e3 * h, 100 * e) for h, e in (row.plot_point for row in rows) if h and e]
         if points:

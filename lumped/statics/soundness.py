@@ -12,7 +12,7 @@ from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import inner, njit
 
 TINY = float(np.finfo(float).tiny)
-TIED = 1.0 + 1e-9  # the first of mirror images is named, which differ by rounding alone
+TIE_FACTOR = 1.0 + 1e-9  # the first of mirror images is named, which differ by rounding alone
 
 
 @inner()
@@ -109,7 +109,7 @@ def sharpest_bend(
                 xx, xy, yx, yy = xx + m_x * d_x, xy + m_x * d_y, yx + m_y * d_x, yy + m_y * d_y
             gauss = 0.25 * math.sqrt(abs(xx * yy - (0.5 * (xy + yx)) ** 2)) / areas[j, i]
             bent = max(along_x[i], along_y[j]) ** 2 * gauss
-            if bent > TIED * largest:
+            if bent > TIE_FACTOR * largest:
                 largest, row, column = bent, j, i
     return largest, max(along_x[column], along_y[row]), row, column
 

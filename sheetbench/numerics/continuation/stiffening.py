@@ -37,7 +37,7 @@ REACH = 0.1  # largest displacement of the first linear step; longer ones lead a
 SOFT_STEPS, STAGES, CELL_STAGES = 0.05, 0.01, 3e-3  # residuals at which load steps and early stages end
 STAGE_CORRECTIONS = 80  # they first shrink slowly: a narrow patch rolls by its width in each
 STEP_SHARE = 0.25  # of the radius, by which obstacles and supports come in between descents
-FAR = 10.0  # sizes from rest and beyond all prescribed motions: out of reach
+OUT_OF_REACH = 10.0  # sizes from rest and beyond all prescribed motions: out of reach
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
@@ -50,7 +50,7 @@ def set_stiffness_share(penalties: Sequence[Any], share: float) -> None:
 def within_reach(structure: Structure[State, Forces]) -> bool:
     """Return whether an obstacle lies within reach of a structure."""
     rest = structure.rest()
-    at, reach = structure.configuration(rest, 1.0), structure.size * (FAR + structure.gap(rest, 1.0))
+    at, reach = structure.configuration(rest, 1.0), structure.size * (OUT_OF_REACH + structure.gap(rest, 1.0))
     ways = (np.linalg.norm(one.obstacle.place() - one.obstacle.position) for one in structure.contacts)
     both = zip(structure.contacts, ways, strict=True)
     return any(one.near(at).depth.max() > -reach - way for one, way in both)

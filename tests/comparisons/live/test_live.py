@@ -179,7 +179,7 @@ def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, pane
 
 
 def test_a_fault_of_the_program_is_told_and_the_page_goes_on(address, panel, monkeypatch, capsys):
-    monkeypatch.setitem(server.WAYS, "lattice", lambda *_: 1 / 0)
+    monkeypatch.setitem(server.SOLVERS, "lattice", lambda *_: 1 / 0)
     status, document = posted(address, "lattice", query_of(panel, 4))
     assert status == 500 and "a fault of the program" in document["said"]
     assert "ZeroDivisionError" in capsys.readouterr().err

@@ -65,10 +65,11 @@ def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarr
 
 
 class Contact:
-    """Contact of a lattice with an obstacle: nodes (m, q) of cells, basis (p, 12) and weights (p, q), in the
-    straight surface, of their points; groups (t, n) of points: the nine of each part, or corners one by one;
-    resists: whether it dissipates energy. Forces and velocities are (n, 3) [N], [m/s]; forces are internal,
-    the gradient of the energy. Raises BadInput for an obstacle too thin."""
+    """Contact of a lattice with an obstacle. nodes: (m, q) masses of the cells; basis: (p, 12) shape
+    functions at a cell's points; weights: (p, q) of its masses there, on the bilinear surface; groups: (t, n)
+    points of each part, nine or one corner; resists: whether contact dissipates energy. Forces and velocities
+    are (n, 3) [N], [m/s]; forces are internal, the gradient of the energy. Raises BadInput for an obstacle
+    too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle = name, obstacle

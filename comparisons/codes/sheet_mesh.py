@@ -31,9 +31,10 @@ ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
 
 @dataclass(frozen=True)
 class SheetMesh:
-    """Vertices (n, 3) [m], triangles (m, 3), which vertices are held, masses (n,) [kg], dead forces besides
-    weight (n, 3) [N], gravity (3,) [m/s²]; for each probe vertices around it and their shares; obstacles as
-    plain data at their last places, and half the thickness [m], which the sheet keeps off them."""
+    """Triangle mesh of a sheet. vertices: (n, 3) [m]; triangles: (m, 3); held: mask of held vertices; masses:
+    (n,) [kg]; forces: dead forces besides weight (n, 3) [N]; gravity: (3,) [m/s²]; probes: vertices around
+    each probe and their weights; obstacles: plain data, at their last positions; offset: half the thickness
+    [m], the sheet's distance from obstacles in contact."""
 
     vertices: np.ndarray
     triangles: np.ndarray

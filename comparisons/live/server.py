@@ -166,9 +166,8 @@ def lattice(question: Question) -> dict[str, Any]:
 
 
 def shell(question: Question) -> dict[str, Any]:
-    """Return the shell's message, with the lattice's difference from it: `error` (a fraction, null where it
-    has no meaning), and `difference` [m] at the masses, of those beyond a rim at the nearest point of the
-    sheet."""
+    """Return the shell's message with the lattice's difference from it: `error`, a fraction or null if it is
+    not defined, and `difference` [m] at the masses, for masses off the sheet at its nearest point."""
     scene, beside = question.scene, solve_lattice(question)
     solution = solve(resolve(scene, Elements("shell", question.elements)))
     plan, probes = plan_mesh(scene, SHELL_CELLS), scene.probe_points()

@@ -26,9 +26,9 @@ LINES = 8  # cells a side that lines on a finer surface mark
 
 @cache
 def own_text(name: str) -> str:
-    """Return a file of the page: `viewer.js` is `source/` bundled with three.js by `make viewer` and defines
-    `Sheets.createViewer(element, options)`, whose options `source/index.js` describes and this module makes;
-    it makes no request and evaluates no text."""
+    """Return the text of a file of the page. `viewer.js` is `source/` bundled with three.js by `make viewer`;
+    it defines `Sheets.createViewer(element, options)`, with the options that this module makes and
+    `source/index.js` describes, makes no request and evaluates no text."""
     return resources.files("comparisons.pages").joinpath(name).read_text(encoding="utf-8")
 
 

@@ -61,9 +61,9 @@ class ContactPoints(NamedTuple):
         return self._replace(slope=slope, curvature=0.5 * self.curvature)
 
     def resistance(self, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the dashpot and friction forces (…, 3) [N] on points under normal loads p (…) [N] with
-        velocities v (…, 3) [m/s] relative to the obstacle, and the forces' derivatives (…, 3, 3) by v: −p τ
-        v_n, limited so that the normal force is never tensile, and −μ p v_t/√(v_t² + v₀²)."""
+        """Return the dashpot and friction forces (…, 3) [N] on points, and their derivatives (…, 3, 3) by v.
+        The forces are −p τ v_n, limited so that the normal force is never tensile, and −μ p v_t/√(v_t² +
+        v₀²), for normal loads p (…) [N] and velocities v (…, 3) [m/s] relative to the obstacle."""
         tau, n = self.obstacle.contact_damping, self.normal
         load, leaving = load[..., None], (speed * n).sum(axis=-1, keepdims=True)
         sliding = speed - leaving * n

@@ -58,7 +58,8 @@ class FrequencyGradient(SheetGradient):
 def _of_shape(
     of: SheetSensitivity, mode: np.ndarray, squared: float, scale: float, third: np.ndarray
 ) -> Term:
-    """Return the term of μ and of the equilibrium's own change in the derivative (N,) of φᵀHφ by q."""
+    """Return the term of dμ and of the equilibrium's change dq in the derivative of ω²; third: derivative
+    (N,) of φᵀHφ by q."""
     sheet, first = of.sheet, of.sheet.first_director
     directors, turned = sheet.directors(of.shape.q), mode[first:].reshape(-1, 3)
     along = multiplier(directors, sheet.forces(of.shape)[first:].reshape(-1, 3))

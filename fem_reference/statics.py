@@ -13,7 +13,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from fem_reference.discrete.answer import Traced, answered, inspected, traced
+from fem_reference.discrete.answer import TracedPath, last_fault, solution_of, trace_sheet
 from fem_reference.sensitivity import SheetSensitivity
 from fem_reference.sheets import Division
 from fem_reference.shell import coarse_start
@@ -34,22 +34,22 @@ def solve(
     a shape, as in `coarse_start.in_shape`, near the equilibrium that is sought first; where no stable one is
     found from there, the path starts flat."""
     require_choice("branch", branch, BRANCHES)
-    divisions, runs, start = [division], list[Traced](), near and partial(coarse_start.in_shape, near)
+    divisions, runs, start = [division], list[TracedPath](), near and partial(coarse_start.in_shape, near)
     while near is None and (coarser := divisions[-1].coarser()) is not None:
         divisions.append(coarser)
     buckled, fallback = branch == "buckled", ""
     for level in divisions[::-1]:
-        inspect = stretched if level.model == "shell" and level.graded else inspected
+        inspect = stretched if level.model == "shell" and level.graded else last_fault
         options = {"buckled": buckled} if level is division else {"limits": coarse_start.LIMITS}
-        run = traced(level.sheet, inspect, start, progress=progress, **options)
+        run = trace_sheet(level.sheet, inspect, start, progress=progress, **options)
         sheet, path = cast(DiscreteShell, run.sheet), run.path
         start = partial(coarse_start.start, sheet, path.state.q) if coarse_start.is_direct(path) else None
         runs.insert(0, run)
     if runs[0].path.fault is STRETCHED:
         fallback = "elements of one size, for the bending"
-        runs.insert(0, traced(division.with_grading(False).sheet, progress=progress, buckled=buckled))
-    answer = answered(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
-    if (make_again := runs[0].sheet.again()) is None:
+        runs.insert(0, trace_sheet(division.with_grading(False).sheet, progress=progress, buckled=buckled))
+    answer = solution_of(*runs, fallback=fallback, **({"branch": branch} if buckled else {}))
+    if (make_again := runs[0].sheet.rebuild()) is None:
         return answer
     return replace(answer, sensitivity=partial(_sensitivity, make_again, runs[0].path.state.q, answer))
 

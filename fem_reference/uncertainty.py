@@ -61,9 +61,9 @@ from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import own_patches
 from sheetbench.scenes.objects.obstacles import Cylinder
-from sheetbench.scenes.objects.supports import Point, place, points_pull
+from sheetbench.scenes.objects.supports import Point, place, points_overconstrain
 
-CAUTION = 3.0  # factor of e in the bar by two meshes
+TWO_MESH_FACTOR = 3.0  # factor of e in the bar by two meshes
 LEAST_ORDER, ASSUMED_ORDER = 0.5, 2.0
 BY_LAYER = 2.0  # loss of order where none of the layer is resolved
 TWIST = 0.3  # the largest share of η that counts
@@ -85,7 +85,7 @@ def largest_order(scene: Scene) -> float:
         FIBRES: scene.material.kind == "orthotropic",
         ROUGH: touched or points or has_corners(scene, [patch.shape for patch in own_patches(scene)]),
         HELD_CORNER: parts and has_corners(scene, parts),
-        PINNED: points_pull(scene.supports, bool(scene.actuators)),
+        PINNED: points_overconstrain(scene.supports, bool(scene.actuators)),
     }
     return min([IN_ROWS, *(order for order, at_most in applies.items() if at_most)])
 
@@ -185,7 +185,7 @@ def estimate(
     largest = min(largest, IN_ROWS - BY_LAYER * layers[0].share)
     if len(answers) == 2:
         order, trusted, converging = np.full(fine.shape, np.nan), rounding, bool(rounding.all())
-        field_order, weight, neighbours = min(ASSUMED_ORDER, largest), CAUTION, 0.0
+        field_order, weight, neighbours = min(ASSUMED_ORDER, largest), TWO_MESH_FACTOR, 0.0
         change = step / (ratio**field_order - 1.0)
     else:
         coarse_step = answers[1] - answers[2]

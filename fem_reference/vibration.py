@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference.discrete.answer import equilibrium
-from fem_reference.discrete.items import Following
+from fem_reference.discrete.items import FollowerLoad
 from fem_reference.sheets import SHEETS, division_of
 from fem_reference.surface.mesh import Elements
 from sheetbench.answers.modes import NaturalModes
@@ -121,7 +121,7 @@ def modes(
     with one_blas_thread():
         sheet = division.sheet(reach=REACH)
         if about == "deformed":
-            if any(isinstance(item, Following) for item in sheet.items):
+            if any(isinstance(item, FollowerLoad) for item in sheet.items):
                 raise BadInput(
                     "--about = deformed: not with pressure and edge moments, which follow the sheet"
                 )
@@ -156,5 +156,5 @@ def modes(
         unknowns=sheet.unknowns,
         solve_seconds=now() - ready,
         sample=lambda points: np.stack([shape.moved_at(points, change) for change in changes]),
-        gradient_of=sheet.again() and gradient_of,
+        gradient_of=sheet.rebuild() and gradient_of,
     )

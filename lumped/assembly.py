@@ -63,7 +63,7 @@ class Assembly:
         self._take(springs_of(self.lattice, self.pattern, calibration.springs))
 
     def grow(self, state: NaturalState) -> None:
-        """Give the cells a natural state; `at` returns the lattice at a share of it."""
+        """Set a natural state of the cells; `at` returns the lattice at a share of it."""
         make = with_natural(self.lattice, self.springs, state)
         self._take(AllFamilies(make(*state.at()), self.pattern))
         self.natural = state.made(lambda *forms: self._with_families(make(*forms)))

@@ -37,8 +37,8 @@ def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def shapes(r: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Return the shares (p, 12) of corners in turn, and of a at the ends of each side, in places at r, s (p,)
-    of [0, 1]."""
+    """Return the shape functions (p, 12) at points r, s (p,) of [0, 1]: of the corners in turn, then of a at
+    the ends of each side."""
     found = [(1.0 - r) * (1.0 - s), r * (1.0 - s), r * s, (1.0 - r) * s]
     for x, y in ((r, s), (s, 1.0 - r), (r, 1.0 - s), (s, r)):
         even = 0.5 * x * (1.0 - x) * np.where(y < 0.5, 1.0 - 2.0 * y * y, 2.0 * (1.0 - y) ** 2)
@@ -48,8 +48,8 @@ def shapes(r: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 
 class CellSurface:
-    """Corners and curves of cells, of the places (m, q, 3) of their masses. corners: (4, q), the map to x of
-    corners; ends: (2, 8, q), the maps to Δx and d at both ends of four sides."""
+    """Curved mid-surfaces of cells, from the positions (m, q, 3) of their masses. corners: (4, q), the map to
+    x of corners; ends: (2, 8, q), the maps to Δx and d at both ends of four sides."""
 
     def __init__(self, grid: Grid, layer_distance: float):
         layers = grid[2]
@@ -66,7 +66,7 @@ class CellSurface:
         return np.concatenate([self.corners @ places, -dot(v, d)[..., 0] * n], axis=1), np.stack([v, n])
 
     def first(self, ends: np.ndarray) -> np.ndarray:
-        """Return derivatives (m, 12, 3, q, 3) of corners and a by the places."""
+        """Return the derivatives (m, 12, 3, q, 3) of corners and a by the masses' positions."""
         v, n = ends
         d = n / dot(n, n)[..., 0]
         by = -outer(d, n), -outer(n, v) - dot(v, n) * (EYE - 2.0 * outer(d, n))

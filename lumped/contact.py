@@ -1,7 +1,7 @@
 """Contact of the sheet with one rigid obstacle: a penalty on the mid-surface, offset by half the thickness.
 
-A place has the depth δ, o = h/2 + δ₀ less its distance from the obstacle
-(`sheetbench.scenes.meaning.distances`), and contact the
+A point of the mid-surface has the depth δ, which is o = h/2 + δ₀ minus its distance from the obstacle
+(`sheetbench.scenes.meaning.distances`); contact has the
 
     energy ∫ ψ(δ) dA,   force ∫ p n dA,  p = ψ',   tangent ∫ p' n nᵀ − p ∂n/∂x dA over the patch {δ > 0}
 
@@ -33,7 +33,7 @@ from sheetbench.answers.contact import ContactState
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
 from sheetbench.scenes.meaning.composition import constants_at
-from sheetbench.scenes.meaning.distances import Near, near, projector
+from sheetbench.scenes.meaning.distances import ContactPoints, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 48 parts
@@ -49,12 +49,13 @@ TO_CORNERS = np.kron(*2 * [np.array([[1, 0, 0], [0.5, 0, 0.5], [0, 0, 1]])])  # 
 # cells that may touch, vectors of their sides (`CellSurface.vectors`), their points (m, p) beside the
 # obstacle, and of their groups of n points (m, t): energies [J], loads (…, n) [N], derivatives by depths
 # (…, n, n) [N/m]
-Pressed = tuple[Any, np.ndarray, Near, np.ndarray, np.ndarray, np.ndarray]
+Pressed = tuple[Any, np.ndarray, ContactPoints, np.ndarray, np.ndarray, np.ndarray]
 
 
 def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return r, s (p,) of the points of a cell, and for each part the numbers (t, 9) of its points; as many
-    parts along the sides (2,) [m] as none is longer than `longest` [m], a multiple `of` 1 or 2."""
+    """Return coordinates r, s (p,) of points in a cell, and the numbers (t, 9) of the points of each part.
+    The cell, with sides (2,) [m], is divided into equal parts no longer than `longest` [m], their number
+    along each side a multiple of `of`."""
     n, m = of * np.maximum(1, np.ceil(sides / longest / of)).astype(int)
     lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
     s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
@@ -64,10 +65,11 @@ def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarr
 
 
 class Contact:
-    """Contact of a lattice with an obstacle: nodes (m, q) of cells, basis (p, 12) and weights (p, q), in the
-    straight surface, of their points; groups (t, n) of points: the nine of each part, or corners one by one;
-    resists: whether it dissipates energy. Forces and velocities are (n, 3) [N], [m/s]; forces are internal,
-    the gradient of the energy. Raises BadInput for an obstacle too thin."""
+    """Contact of a lattice with an obstacle. nodes: (m, q) masses of the cells; basis: (p, 12) shape
+    functions at a cell's points; weights: (p, q) of its masses there, on the bilinear surface; groups: (t, n)
+    points of each part, nine or one corner; resists: whether contact dissipates energy. Forces and velocities
+    are (n, 3) [N], [m/s]; forces are internal, the gradient of the energy. Raises BadInput for an obstacle
+    too thin."""
 
     def __init__(self, scene: Scene, assembly: Assembly, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle = name, obstacle
@@ -90,8 +92,8 @@ class Contact:
         self.divide(at_corners=isinstance(obstacle, Plane) and flat, bent=True)
 
     def divide(self, at_corners: bool, bent: bool = False) -> None:
-        """Take cells as straight between masses unless they are `bent`, and divide them into parts, of which
-        corners alone may be enough."""
+        """Divide the cells into parts with points of contact: on the curved surface if `bent`, else on the
+        bilinear one; with `at_corners` at the cells' corners alone."""
         self.at_corners, self.bent = at_corners, bent and not at_corners
         longest = self.obstacle.radius / (3.0 if self.bent else 2.0)
         r, s, self.groups = parts_of_cells(self._sides, longest, 2 if self.bent else 1)
@@ -111,18 +113,19 @@ class Contact:
         self.sizes = self.area[:, self.groups] if at_corners else by_part
         self.shares = self.basis if self.bent else self.weights
 
-    def _surface(self, at: Deformed, of: Any) -> tuple[np.ndarray, Near]:
+    def _surface(self, at: Deformed, of: Any) -> tuple[np.ndarray, ContactPoints]:
         vectors, sides = self._rest[of] + at[0][self.nodes[of]], np.empty((3, 0))
         if self.bent:
             vectors, sides = self.surface.vectors(vectors)
         return sides, near(self.obstacle, self.shares @ vectors, self.offset[of], at[1])
 
-    def near(self, at: Deformed) -> Near:
-        """Return the places of points (m, p) of cells beside the obstacle."""
+    def near(self, at: Deformed) -> ContactPoints:
+        """Return the positions and depths of the cells' points (m, p) relative to the obstacle."""
         return self._surface(at, ...)[1]
 
     def _law(self, depth: np.ndarray, of: Any, tangent: bool = False) -> tuple[np.ndarray, ...]:
-        """Return energies, loads, slopes and deepest places at depths (m, t, n) (`Pressed`)."""
+        """Return energies, loads and their derivatives (see `Pressed`), and the largest depth of each part,
+        from depths (m, t, n)."""
         over, n = self.rounded * self.thickness[of][:, self.groups[:, :1]], depth.shape[2]
         k = (self.share * self.full[of])[:, self.groups] * self.sizes[of]
 
@@ -137,7 +140,8 @@ class Contact:
         return *(a - b for a, b in zip(full, less, strict=True)), deepest
 
     def _pressed(self, at: Deformed, since: Since = None, tangent: bool = False) -> Pressed:
-        """Return the state of cells that may touch; since: the mean of a step from there."""
+        """Return the contact state of cells that may touch; with `since` the mean state of the step from
+        there."""
         if since is None:
             places = self._rest + at[0][self.nodes]
             middle = places.mean(axis=1, keepdims=True)
@@ -145,10 +149,10 @@ class Contact:
             reach = farthest + 1.01 * self.offset.max(axis=1)
             of = np.flatnonzero(near(self.obstacle, middle[:, 0], reach, at[1]).depth > 0.0)
             sides, found = self._surface(at, of)
-            energy, load, slope, _ = self._law(found.sunk[:, self.groups], of, tangent)
+            energy, load, slope, _ = self._law(found.penetration[:, self.groups], of, tangent)
             return of, sides, found, energy, load, slope
         before, (sides, after) = self.near(since), self._surface(at, ...)
-        start, end = before.sunk[:, self.groups], after.sunk[:, self.groups]
+        start, end = before.penetration[:, self.groups], after.penetration[:, self.groups]
         (had, *_), (has, last, *_) = self._law(start, ...), self._law(end, ...)
         _, load, slope, _ = self._law(0.5 * (start + end), ..., True)
         sunk, half = end - start, 0.5 * slope
@@ -162,18 +166,18 @@ class Contact:
         return ..., sides, after.mean(before), has, load + more * sunk, slope
 
     def _at_points(self, load: np.ndarray) -> np.ndarray:
-        """Return sums at points (m, p) of loads of groups (m, t, n)."""
+        """Add up the loads of groups (m, t, n) at the cells' points (m, p)."""
         out = np.zeros((len(load), len(self.basis)))
         np.add.at(out, (np.arange(len(load))[:, None, None], self.groups), load)
         return out
 
     def _positive(self, load: np.ndarray) -> np.ndarray:
-        """Return loads of groups shared among the corners of parts: none pulls there."""
+        """Return the loads of groups distributed over the corners of parts, where all are compressive."""
         return self._at_points(load if self.at_corners else load @ TO_CORNERS)
 
     def add_force(self, at: Deformed, force: np.ndarray, since: Since = None) -> float:
-        """Add the internal force, or, given the start of a step, the mean force whose work in the step is the
-        energy's change; return the energy [J]."""
+        """Add the internal force, or, with the start `since` of a step, the mean force whose work over the
+        step equals the change of energy; return the energy [J]."""
         of, sides, near, energy, load, _ = self._pressed(at, since)
         pull = self.shares.T @ (self._at_points(load)[..., None] * near.slope)
         if self.bent:
@@ -184,9 +188,9 @@ class Contact:
     def add_tangent(
         self, at: Deformed, scale: float, blocks: np.ndarray, definite: bool = False, since: Since = None
     ) -> None:
-        """Add scale × the force's derivative to the pattern's blocks (b, 3, 3) [N/m]; for the mean force of a
-        step the symmetric part of the derivative by the displacement at the step's end. definite: leave out
-        parts that could make the tangent indefinite."""
+        """Add scale × the tangent to the pattern's blocks (b, 3, 3) [N/m]; for the mean force of a step, the
+        symmetric part of its derivative by the displacement at the end. definite: leave out parts that could
+        make the tangent indefinite."""
         of, sides, near, _, load, slope = self._pressed(at, since, True)
         cell, group = np.nonzero(load.any(axis=2))
         on, back = np.unique(cell, return_inverse=True)
@@ -211,14 +215,14 @@ class Contact:
         np.add.at(blocks, self.slots[of][on], scale * of_masses)
 
     def _resisted(self, at: Deformed, v: np.ndarray) -> tuple[Any, np.ndarray, tuple[np.ndarray, np.ndarray]]:
-        """Return cells that may touch, velocities of points past the obstacle (m, p, 3) [m/s], and forces (m,
-        p, 3) [N] of dashpot and friction with their derivatives by velocity (m, p, 3, 3)."""
+        """Return the cells that may touch, their points' velocities relative to the obstacle (m, p, 3) [m/s],
+        and dashpot and friction forces (m, p, 3) [N] with their derivatives by velocity (m, p, 3, 3)."""
         of, _, near, _, load, _ = self._pressed(at)
         speed = self.weights @ (v[self.nodes[of]] - self.obstacle.velocity(at[1].time))
         return of, speed, near.resistance(self._positive(load), speed)
 
     def add_resistance(self, at: Deformed, v: np.ndarray, force: np.ndarray) -> float:
-        """Add the force that resists the velocity; return the power taken [W]."""
+        """Add the dashpot and friction forces; return the power that they dissipate [W]."""
         if not self.resists:
             return 0.0
         of, speed, (pull, _) = self._resisted(at, v)
@@ -226,7 +230,7 @@ class Contact:
         return -float((pull * speed).sum())
 
     def add_resistance_tangent(self, at: Deformed, v: np.ndarray, scale: float, blocks: np.ndarray) -> None:
-        """Add scale × the derivative of the resisting force by the velocity [N·s/m]."""
+        """Add scale × the derivative of the dashpot and friction forces by the velocity [N·s/m]."""
         if self.resists:
             of, _, (_, by_speed) = self._resisted(at, v)
             touched = by_speed.any(axis=(1, 2, 3))
@@ -243,28 +247,29 @@ class Contact:
         return -force
 
     def _of_masses(self, points: np.ndarray) -> np.ndarray:
-        """Return sums (n,) at masses of values at points (m, p), shared by their weights."""
+        """Distribute values at points (m, p) over the masses (n,) by the points' weights."""
         return np.bincount(self.nodes.ravel(), (points @ self.weights).ravel(), minlength=self._masses)
 
     def stiffest(self, mass: np.ndarray) -> float:
         """Return a bound of the increase of squared frequencies ω² [1/s²] by contact; mass: (n,) [kg]."""
         return float((self._of_masses(self.area * self.share * self.full) / mass).max())
 
-    def move_freely(self, mass: np.ndarray, squared: float) -> None:
-        """Set the stiffness in motion, relative to the springs' highest squared frequency [1/s²]."""
+    def set_motion_penalty(self, mass: np.ndarray, squared: float) -> None:
+        """Set the penalty for a motion; squared: the springs' highest ω² [1/s²], which limits its
+        stiffness."""
         self.divide(at_corners=isinstance(self.obstacle, Plane))
         self.full, self.rounded = self.full * (self._inert[self.nodes] @ self.weights.T), ROUNDED
         self.share = min(1.0, MOVING * squared / self.stiffest(mass) * self.share)
 
     def rounding(self, at: Deformed) -> float:
-        """Return the norm [N] of the error of its forces by rounding of displacements."""
+        """Return the norm [N] of the contact forces' error caused by rounding of displacements."""
         touched = self._pressed(at, tangent=True)[-1].sum(axis=(2, 3))
         return self._eps * float(np.abs(self._rest).max() * np.linalg.norm(touched))
 
     def report(self, at: Deformed) -> tuple[ContactState, np.ndarray]:
         """Return the state of contact at an equilibrium and the pressure (n,) [Pa] at the masses."""
         found = self.near(at)
-        _, load, slope, deepest = self._law(found.sunk[:, self.groups], ..., True)
+        _, load, slope, deepest = self._law(found.penetration[:, self.groups], ..., True)
         first, area = self.groups[:, 0], self._of_masses(self.area)
         touched = slope.sum(axis=(2, 3)) / (self.share * self.full[:, first])
         pressed = self._of_masses(self._positive(load))
@@ -272,10 +277,10 @@ class Contact:
         return ContactState.of(deepest / self.thickness[:, first], touched, load), pressure
 
     def table(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return masses (t, q) around its points and their weights (t, q); and (t, 10) the obstacle's place,
-        direction and radius, 0 of a plane [m], a point's area [m²], offset [m] and stiffness [N/m³]: with the
-        depth δ of the module's text a point has the energy ½ stiffness area ⟨δ⟩², once straight at
-        corners."""
+        """Return a table of the points in contact: masses (t, q) around each and their weights (t, q); and
+        (t, 10) the obstacle's position [m], direction and radius [m], 0 for a plane, and the point's area
+        [m²], offset [m] and stiffness [N/m³]. For contact at corners, a point of depth δ has the energy ½
+        stiffness area ⟨δ⟩²."""
         body, cells = self.obstacle, len(self.nodes)
         at = self.groups[:, 0]
         place = np.nan_to_num([*body.place(), *body.direction, body.radius], posinf=0.0)

@@ -50,9 +50,9 @@ def areas_of_masses(scene: Scene, lattice: Lattice, shape: Shape | None) -> np.n
 
 
 def held_crossings(lines: tuple[Lines, Lines], shape: Shape) -> np.ndarray:
-    """Return whether a support in a shape holds each crossing of lines, (ny, nx): a crossing inside or, but
-    for rounding, on the boundary, or with more than HELD_SHARE of its surroundings, half a cell each way,
-    covered."""
+    """Return whether a support in a shape holds each crossing of lines, (ny, nx). It holds crossings inside
+    it, on its boundary within rounding, and with more than HELD_SHARE of their surroundings, half a cell each
+    way, covered."""
     import shapely
 
     x, y = (side.at for side in lines)

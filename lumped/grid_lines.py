@@ -52,8 +52,8 @@ class Lines:
         return cell, (x - self.at[cell]) / self.widths[cell]
 
     def around(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return the `count` lines nearest to the cells of places x (k,) [m], fewer on a grid with fewer
-        lines, and their weights in Lagrange's polynomial through them, (k, count) each."""
+        """Return, for each position x (k,) [m], the `count` lines nearest to its cell (all, on a grid with
+        fewer), and their weights in the Lagrange polynomial through them, (k, count) each."""
         count = min(count, len(self.at))
         first = np.clip(self.index(x)[0] - (count - 2) // 2, 0, len(self.at) - count)
         numbers = first[:, None] + np.arange(count)

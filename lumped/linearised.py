@@ -201,7 +201,8 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
 
 
 def _allowed_motions(system: System, u: np.ndarray) -> sp.csr_array:
-    """Return T on the motions that the actuators' constraints allow, the null space of their gradient."""
+    """Return the map T restricted to the motions that the actuators' constraints allow, the null space of
+    their gradient."""
     if not system.constrained or system.coupling is None:
         return system.moving_part
     of_actuators = system.coupling.constraint_gradient(u)

@@ -73,8 +73,8 @@ def masses(
 def over_tributary(
     scene: Scene, lattice: Lattice, distribution: Distribution, cells: CellSection | None
 ) -> np.ndarray:
-    """Return every mass over the tributary one, (n,), 0 of masses without sheet: the factor of forces on
-    areas with which a sheet that falls flat stays flat."""
+    """Return the ratio of each mass to its tributary mass, (n,), 0 off the sheet. Area forces times this
+    ratio accelerate a flat sheet uniformly."""
     mass, tributary = (sheet_masses(scene, lattice, by, cells) for by in (distribution, "tributary"))
     return np.divide(mass, tributary, out=np.zeros_like(mass), where=tributary > 0.0)
 
@@ -155,7 +155,7 @@ def _free_edges(scene: Scene, lattice: Lattice) -> frozenset[str]:
 
 
 def _line_matrix(lines: Lines, axis: str, twisting: frozenset[str], free: frozenset[str]) -> sp.csr_array:
-    """Return the corrected trapezoidal rule over the lines across an axis, (n, n) [m]."""
+    """Return the matrix (n, n) [m] of the corrected trapezoidal rule over the lines across an axis."""
     left, right, correction = _corrections(lines)
     correction[[0, -1]] *= [f"{axis}0" in twisting, f"{axis}1" in twisting]
     row, slopes = np.arange(len(left)), np.zeros((len(left), len(left)))

@@ -60,7 +60,7 @@ class MidSurface:
         return sp.csr_array(sp.kron(sp.hstack([self._shares, wider]), sp.eye_array(3)))
 
     def shared(self, values: np.ndarray, size: int) -> np.ndarray:
-        """Return values (n, k) at the points shared among the masses, (size, k), by the transposed map."""
+        """Distribute values (n, k) at the points over the masses, (size, k), by the transposed map."""
         masses = self._shares.shape[1]
         return np.pad(self._shares.T @ values, ((0, size - masses), (0, 0)))
 

@@ -37,8 +37,8 @@ SIZE_POWERS = np.array(
 def with_natural(
     lattice: Lattice, families: Sequence[Family], state: NaturalState
 ) -> Callable[..., list[Family]]:
-    """Return the function (strain, curvature of cells) → families of a sheet that is not flat at rest. Raises
-    BadInput for springs of a per-direction law."""
+    """Return a function of the cells' natural strain and curvature that builds the springs of a sheet not
+    flat at rest. Raises BadInput for springs of a per-direction law."""
     natural = _natural(lattice, families)
     grown = [springs and replace(springs, stiffness=springs.grown(state.at()[0])) for springs in natural]
     pairs = list(zip(families, grown, strict=True))
@@ -81,7 +81,8 @@ class _Natural:
     stiffness: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def grown(self, strain: np.ndarray) -> np.ndarray:
-        """Return the stiffness by the drawn sides of springs that resist strains of the natural sides."""
+        """Return the stiffness relative to the drawn sides, of springs that resist strains relative to the
+        natural sides."""
         family = self.family
         if isinstance(family, Links) or not strain.any():
             return family.stiffness

@@ -1,4 +1,4 @@
-"""Quadrature over the part of a cell where a depth is positive, as a compiled loop.
+"""Quadrature over the part of a cell where the depth of contact is positive, as a compiled loop.
 
 A depth q is biquadratic on [−1, 1]², with nine values at −1, 0, 1 along x and y (x fastest). Along x, at each
 y, it is a parabola whose roots end the patch {q > 0}; the integrand between the roots is a polynomial, exact
@@ -34,11 +34,12 @@ def value(c: np.ndarray, t: float) -> float:
 
 
 @njit
-def stops(c: np.ndarray) -> np.ndarray:
-    """Return −1, the places where a polynomial with coefficients c (n + 1,) changes its sign, and 1."""
+def sign_changes(c: np.ndarray) -> np.ndarray:
+    """Return the points −1 and 1, and between them those at which a polynomial with coefficients c (n + 1,)
+    changes sign, in rising order."""
     found, count = np.full(len(c) + 1, -1.0), 1
     if len(c) > 1:
-        ends = stops(c[1:] * np.arange(1, len(c)))  # between those of its derivative it does so once at most
+        ends = sign_changes(c[1:] * np.arange(1, len(c)))  # one at most between two of these
         for j in range(len(ends) - 1):
             a, b, at_a = ends[j], ends[j + 1], value(c, ends[j])
             if at_a * value(c, b) < 0.0:
@@ -55,9 +56,9 @@ def stops(c: np.ndarray) -> np.ndarray:
 
 
 @inner()
-def patch(q: np.ndarray, points: np.ndarray) -> int:
-    """Set points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is positive: how
-    many."""
+def patch_points(q: np.ndarray, points: np.ndarray) -> int:
+    """Write integration points (…, 3), x, y and weight, of the patch where the biquadratic of q (9,) is
+    positive; return their number."""
     count, square, products = 0, q.reshape(3, 3), np.zeros(5)
     bounds = BERNSTEIN @ square @ BERNSTEIN.T
     if bounds.max() <= 0.0:
@@ -69,7 +70,7 @@ def patch(q: np.ndarray, points: np.ndarray) -> int:
     low, high = c[:, 0] - c[:, 1] + c[:, 2], c[:, 0] + c[:, 1] + c[:, 2]  # at the sides
     ends, across, weights = np.array([-1.0, 1.0]), ALONG, ALONG_WEIGHTS  # where it is positive all over
     if bounds.min() <= 0.0:
-        ends = np.sort(np.concatenate((stops(low), stops(high), stops(products))))
+        ends = np.sort(np.concatenate((sign_changes(low), sign_changes(high), sign_changes(products))))
         across, weights = ACROSS, ACROSS_WEIGHTS
     for k in range(len(ends) - 1):
         half, middle = 0.5 * (ends[k + 1] - ends[k]), 0.5 * (ends[k + 1] + ends[k])
@@ -95,7 +96,7 @@ def patch(q: np.ndarray, points: np.ndarray) -> int:
 
 @inner()
 def shape(x: float, y: float, f: np.ndarray) -> None:
-    """Set the nine shape functions f (9,)."""
+    """Write the nine biquadratic shape functions at x, y into f (9,)."""
     for i, u in enumerate((0.5 * y * (y - 1.0), 1.0 - y * y, 0.5 * y * (y + 1.0))):
         f[3 * i], f[3 * i + 1], f[3 * i + 2] = (
             u * 0.5 * x * (x - 1.0),
@@ -108,15 +109,15 @@ def shape(x: float, y: float, f: np.ndarray) -> None:
 def integrate(
     depth: np.ndarray, stiffness: np.ndarray, power: int, tangent: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return ∫ ψ (m,) [J], ψ = k ⟨d⟩ᵖ/p! of a power p = 2 or 3, loads ∫ ψ' φ (m, n) and ∫ ψ'' φ φᵀ (m, n, n)
-    of depths d (m, n) [m], n = 9 of a patch or 1 of a point with φ = 1, and the deepest (m,); stiffness: k
-    (m, n); tangent: whether to compute ∫ ψ'' φ φᵀ."""
+    """Return the energies ∫ ψ (m,) [J] of parts with depths d (m, n) [m], ψ = k ⟨d⟩ᵖ/p! of a power p = 2 or
+    3; their derivatives ∫ ψ' φ (m, n) and ∫ ψ'' φ φᵀ (m, n, n); and the largest depths (m,). n: 9 values of a
+    biquadratic, or 1 of a point with φ = 1; stiffness: k (m, n); tangent: whether to compute ∫ ψ'' φ φᵀ."""
     m, n = depth.shape
     energy, load, by = np.zeros(m), np.zeros((m, n)), np.zeros((m, n, n))
     deepest, points, f = np.empty(m), np.ones((MOST, 3)), np.ones(9)
     for e in range(m):
         q, deepest[e] = depth[e], depth[e].max()
-        for g in range(patch(q, points) if n > 1 else int(q[0] > 0.0)):
+        for g in range(patch_points(q, points) if n > 1 else int(q[0] > 0.0)):
             if n > 1:
                 shape(points[g, 0], points[g, 1], f)
             d = k = 0.0

@@ -22,7 +22,7 @@ WEIGHTS = np.array([4.0, 2.0, 1.0, 2.0]) / 36.0  # M_ab by (b − a) mod 4
 
 @njit
 def _middle(x: np.ndarray, p: int) -> np.ndarray:
-    """Return the mean of every column of p masses, in the row of its first, (n, 3)."""
+    """Return the mean position of every column of p masses, stored in the row of its first mass, (n, 3)."""
     out = zeros(x.shape)
     for mass in range(len(x)):
         for q in range(3):

@@ -63,14 +63,14 @@ class Constraints:
         return other
 
     def turned(self, load_factor: float) -> np.ndarray:
-        """Return the part of g (n, 3) [m] by bent rods and tilted clamps."""
+        """Return the part of g (n, 3) [m] that bent rods and tilted clamps prescribe."""
         g = np.zeros_like(self.shift)
         for edge in self.driven:
             masses = self.holders[edge.edge][0].ravel()
             rest = self.lattice.positions[masses]
             g[masses] = edge.displaced(rest[:, :2], load_factor).lifted(rest[:, 2])
         if self.coupling is not None:
-            self.coupling.follow(g)
+            self.coupling.apply_held_corners(g)
         return g
 
     def prescribed(self, load_factor: float) -> np.ndarray:

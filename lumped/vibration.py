@@ -196,8 +196,8 @@ def frequency_slopes(
     scene: Scene, calibration: Calibration, parameters: Sequence[str], count: int
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Return the `count` lowest frequencies (count,) [Hz] and their derivatives by spring constants [Hz per
-    N/m]: of coinciding ones a mean's; 0 of a motion that no spring resists, and by a constant that is 0, of
-    a spring that a fit ends without."""
+    N/m]. Coinciding frequencies have the derivative of their mean; motions that no spring resists, and
+    constants that are 0, have the derivative 0."""
     lowest, none = modes(scene, calibration, count, calibration.masses), np.zeros(count)
     slopes, known = {name: none.copy() for name in parameters}, calibration.constants.names()
     for number in np.flatnonzero(lowest.frequencies):

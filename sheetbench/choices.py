@@ -110,6 +110,6 @@ def method_of(calibration: str | None, k: float | None) -> str:
 
 
 def listed(names: Iterable[str], link: str = "or") -> str:
-    """Return names as in a sentence: a, b or c."""
+    """Return a list of names as text: "a, b or c"."""
     *first, last = names
     return f"{', '.join(first)} {link} {last}" if first else last

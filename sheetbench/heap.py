@@ -1,4 +1,4 @@
-"""Setting of glibc's malloc for memory that arrays free, for a whole process."""
+"""Setting of glibc's malloc: keep the memory that arrays free, for a whole process."""
 
 
 def keep_freed_memory() -> None:

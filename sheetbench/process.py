@@ -18,7 +18,7 @@ from sheetbench.errors import foreign
 
 ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA", "RAYON")}
 MOST = 2**24  # bytes of standard output
-TAIL = 2000  # bytes of standard error that are read
+ERROR_BYTES = 2000  # bytes of standard error that are read
 POLL = 0.05  # s between checks of the time and of the output's size
 
 
@@ -91,7 +91,7 @@ def run(
                 with suppress(ProcessLookupError, PermissionError):
                     os.killpg(process.pid, SIGKILL)
         answer.seek(0)
-        complaint.seek(max(0, complaint.seek(0, os.SEEK_END) - TAIL))
+        complaint.seek(max(0, complaint.seek(0, os.SEEK_END) - ERROR_BYTES))
         lines = complaint.read().decode("utf-8", "replace").strip().splitlines()
         last_line = foreign(lines[-1]) if lines else ""
         return ProcessResult(process.returncode, answer.read(most), last_line, stopped, took)

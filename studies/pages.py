@@ -1,4 +1,4 @@
-"""Stored results, `results/NAME.json`, and the pages that the documentation's build makes of them.
+"""Stored results, `results/NAME.json`, from which the documentation's build makes pages.
 
 A file has the words of a report, every table with its rows in SI units, and in `made` the date, version and
 machine of the measurement: `keep` writes it, `kept` returns the report again, whose `to_markdown()` is the
@@ -28,7 +28,7 @@ DEFAULTS = plain(asdict(Column()))
 
 
 def keep(report: Report, name: str = "", made: str = "") -> Path:
-    """Write a report's tables and words to the kept results, and return the file. name: of the results, the
+    """Write a report's tables and texts to the stored results, and return the file. name: of the results, the
     report's own by default; made: date and machine, today and this machine by default."""
     machine = f"sheetbench {version()}, Python {platform.python_version()}, {platform.machine()}"
     words = {
@@ -56,7 +56,7 @@ def _plain(value: Any) -> Any:
 
 
 def kept(name: str) -> Report:
-    """Return the report that was kept under a name; its last note has the date, version and machine."""
+    """Return the stored report of a name; its last note has the date, version and machine."""
     document = json.loads((RESULTS / f"{name}.json").read_text(encoding="utf-8"))
     words: dict[str, Any] = {k: tuple(document[k]) if k in LISTS else document[k] for k in WORDS}
     words["notes"] += (f"{document['made']}.",)
@@ -75,7 +75,7 @@ def _table(words: dict[str, Any]) -> Table:
 
 
 def keep_run(folder: Path) -> Path:
-    """Keep the answer that a run has written into a folder, and return the file. Raises ValueError for a
+    """Store the answer that a run has written into a folder, and return the file. Raises ValueError for a
     folder without an answer."""
     (run,) = runs.read(folder).studies
     words = run.words

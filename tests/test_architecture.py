@@ -132,7 +132,7 @@ def test_rooms_of_the_comparisons_import_from_lower_floors():
     assert not circles({room: others - {room} for room, others in below.items()})
 
 
-def test_contributors_read_of_every_room():
+def test_contributing_lists_every_package_of_comparisons():
     page = text_of(ROOT / "CONTRIBUTING.md").split("<!-- floors -->")[1].split("<!-- end of floors -->")[0]
     rooms = {path.name for path in (ROOT / "comparisons").iterdir() if (path / "__init__.py").is_file()}
     assert rooms == FLOORS.keys()
@@ -196,7 +196,7 @@ def test_rooms_of_the_scenes_import_from_lower_floors_and_in_no_circle():
     assert not circles(graph)
 
 
-def test_every_figure_is_there():
+def test_every_figure_of_the_pages_exists():
     """Figures are named by module and function, and loaded when they are drawn."""
     text = "".join(map(text_of, files_of(*PACKAGES)))
     named = set(re.findall(r'"((?:sheetbench|comparisons|fem_reference|studies)[\w.]*figure):(\w+)"', text))
@@ -249,7 +249,7 @@ def test_the_lattice_is_used_through_its_public_names():
             assert not inside, f"{path.relative_to(ROOT)} imports {name} from {module}"
 
 
-def test_what_is_private_stays_in_its_file():
+def test_no_file_of_lumped_imports_a_private_name():
     for path in files_of("lumped"):
         for module, name in names_from(path):
             assert not name.startswith("_"), f"{path.relative_to(ROOT)} imports {name} from {module}"

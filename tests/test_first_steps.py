@@ -216,7 +216,7 @@ def test_a_scene_written_is_read_back_as_it_was(tmp_path, name):
     assert load(path) == scene
 
 
-def test_words_say_which_way_things_act():
+def test_descriptions_give_the_directions_of_loads():
     support = [
         {"edge": "x0", "kind": "clamped", "tilt": -0.02},
         {"edge": "x1", "kind": "held", "components": ["y", "z"]},

@@ -138,7 +138,7 @@ def test_every_target_and_benchmark_is_run_or_left_out_for_a_reason():
 
 
 @pytest.mark.parametrize("target", sorted(SMALLER.keys() | ELSEWHERE))
-def test_what_a_target_names_is_there(target):
+def test_files_and_modules_of_a_target_exist(target):
     text = commands(target)
     for path in re.findall(r"(?<![\w/.-])[\w-]+(?:/[\w-]+)*\.(?:py|toml|txt)\b|\.ci/[\w-]+", text):
         assert (ROOT / path).exists(), path

@@ -47,7 +47,7 @@ def test_files_say_what_each_cell_is_made_of():
         ("compare", ["--law", "biot"], "the shell's law 'biot'"),
     ],
 )
-def test_verbs_that_do_not_say_so(sheet, key, verb, options, who, capsys):
+def test_options_for_isotropic_sheets_are_refused_on_others(sheet, key, verb, options, who, capsys):
     assert run(verb, f"{sheet}.toml", *options) == 2
     assert f"{key}: {who} is for isotropic sheets" in one_line(capsys)
 

@@ -55,7 +55,7 @@ def progress() -> Iterator[Callable[[object], None]]:
         def print_line(work: object) -> None:
             nonlocal due
             if getattr(work, "at_once", False) or monotonic() >= due:
-                tell(str(work))
+                print_status(str(work))
                 due = monotonic() + BETWEEN
 
         yield print_line
@@ -87,7 +87,7 @@ def _in_notebook() -> Iterator[Callable[[object], None]]:
             handle.update({"text/plain": "", "text/html": ""}, raw=True)
 
 
-def tell(text: str) -> None:
+def print_status(text: str) -> None:
     """Print a line on standard error, unless quiet."""
     if not _quiet:
         err.print(Text(terminal(text)), soft_wrap=True)
@@ -144,7 +144,7 @@ def note(text: str) -> None:
 
 
 def _fitted(line: str, console: Console = out, indent: str = "") -> list[str]:
-    """Return a line broken between words, with an indent on further lines; long paths stay whole."""
+    """Wrap a line between words, with an indent on further lines; long paths are not broken."""
     from textwrap import TextWrapper
 
     wrapper = TextWrapper(

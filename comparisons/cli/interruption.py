@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 STATUS = 130  # 128 + SIGINT, as in shells
-PATIENCE = 1.2  # s from the signal to the forced end of the process
+TIME_LIMIT = 1.2  # s from the signal to the forced end of the process
 
 NOTHING = "nothing was kept"
 _left_behind, _folder = NOTHING, ""
@@ -44,7 +44,7 @@ def report() -> None:
 
 @contextmanager
 def end_after_interrupt(last: bool = False) -> Iterator[None]:
-    """End a block within PATIENCE after Ctrl-C; has an effect in the main thread alone. last: whether the
+    """End a block within TIME_LIMIT after Ctrl-C; has an effect in the main thread alone. last: whether the
     process ends with the block; later signals are then ignored."""
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -73,9 +73,9 @@ def _first_interrupt(number: int, frame: object) -> None:
 
 
 def _end_in_time(read_end: int, done: threading.Event) -> None:
-    """End the process if the block is not done within PATIENCE after an interrupt."""
+    """End the process if the block is not done within TIME_LIMIT after an interrupt."""
     while received := os.read(read_end, 1):  # empty when the other end is closed
-        if received[0] == signal.SIGINT and not done.wait(PATIENCE):
+        if received[0] == signal.SIGINT and not done.wait(TIME_LIMIT):
             if sys.stderr.isatty():
                 sys.stderr.write("\r\x1b[K\x1b[?25h")  # clear the spinner's line, show its hidden cursor
             report()

@@ -16,7 +16,7 @@ class _Lines(logging.Handler):
         """Print the message, also while a spinner runs."""
         from comparisons.cli import console  # imports rich, slow for help
 
-        console.tell(record.getMessage())
+        console.print_status(record.getMessage())
 
 
 @contextmanager

@@ -1,1 +1,1 @@
-"""Other people's codes: the parameters, mesh and scene of a sheet in each code's own words."""
+"""Other people's codes: parameters, meshes and files of a sheet in each code's format."""

@@ -56,7 +56,8 @@ class Tables:
         self.add(f"{name}_OF", which.ravel())
 
     def curves(self, table: OverTime | None, key: str, width: int) -> list[int]:
-        """Return the first knot of each component of a table, −1 without a table."""
+        """Add the curves of a table over time to the knots; return the first knot of each component, −1
+        without a table."""
         if table is None:
             return [-1] * width
         times, firsts = np.array([table.time[0], *table.time]), []

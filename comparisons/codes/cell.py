@@ -43,7 +43,7 @@ CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (
 
 @dataclass(frozen=True)
 class Element:
-    """The nodes of an element, and its stiffness (3 n, 3 n) for each coefficient that it has, at 1."""
+    """Nodes of an element, and its stiffness matrix (3 n, 3 n) per unit of each of its coefficients."""
 
     places: tuple[Place, ...]
     stiffness: Mapping[str, np.ndarray]
@@ -81,7 +81,7 @@ class Cell:
 
     def __post_init__(self) -> None:
         if abs(np.linalg.det(self.periods)) == 0.0 or not np.all(np.isfinite(self.nodes)):
-            raise BadInput(f"{self.name}: periods: two that span an area, and finite nodes")
+            raise BadInput(f"{self.name}: periods must span an area, and nodes be finite")
         if self.hinge and self.hinge not in HINGES:
             raise BadInput(f"{self.name}: hinge = {self.hinge!r}: one of {', '.join(HINGES)}, or none")
         if not self.triangles and not self.springs and not self.bricks:
@@ -133,8 +133,8 @@ class Cell:
 
 
 def sides_of(elements: Iterable[Sequence[Place]]) -> dict[tuple[Place, Place], list[list[Place]]]:
-    """Return every two corners of elements, each once, the first in the cell itself, with the other corners
-    of each element that has both."""
+    """Return every pair of corners of elements once, shifted so that the first lies in the cell itself, with
+    the remaining corners of each element that contains the pair."""
     found: dict[tuple[Place, Place], list[list[Place]]] = {}
     for element in elements:
         for a, b in combinations(element, 2):
@@ -174,8 +174,9 @@ def _spring(ends: np.ndarray) -> np.ndarray:
 
 
 def _lame(slopes: np.ndarray, size: float) -> np.ndarray:
-    """Return the matrices of (∇·u)² and 2 e:e over a size, (2, 3 n, 3 n). slopes: of the shares of n nodes
-    along x, y and z, (n, 3); those along z are 0 in a plane, whose e then is in it."""
+    """Return the matrices of (∇·u)² and 2 e:e, integrated over a length, area or volume `size`, (2, 3 n, 3
+    n). slopes: of the shares of n nodes along x, y and z, (n, 3); those along z are 0 in a plane, whose e
+    then is in it."""
     axes = np.diag(slopes.any(axis=0).astype(float))
     turned = np.einsum("nl,mj->njml", slopes, slopes).reshape(2 * [slopes.size])
     return size * np.array([np.outer(slopes, slopes), np.kron(slopes @ slopes.T, axes) + turned])
@@ -268,15 +269,16 @@ _Parts = tuple[np.ndarray, np.ndarray, tuple[tuple[Place, ...], ...]]
 
 
 def cut_squares(number: np.ndarray, odd: np.ndarray) -> Iterator[tuple[int, int, int]]:
-    """Yield the triangles of the squares between numbered nodes (m, n), each square cut by one diagonal, or
-    by the other where `odd` (m − 1, n − 1)."""
+    """Yield the triangles of squares with numbered corners (m, n), cut by one diagonal, or by the other in
+    the squares `odd` (m − 1, n − 1)."""
     for (i, j), other in np.ndenumerate(odd):
         a, d, b, c = number[i : i + 2, j : j + 2].ravel().tolist()
         yield from ((a, b, d), (b, c, d)) if other else ((a, b, c), (a, c, d))
 
 
 def _squares(side: int) -> _Parts:
-    """Return squares with one diagonal, with the other one in every second square of a side of two."""
+    """Return squares cut by a diagonal, in a period of `side` squares; with side 2 the diagonals
+    alternate."""
     lines = range(side + 1)
     places = [(i % side * side + j % side, i // side, j // side) for i in lines for j in lines]
     number, (i, j) = np.arange(len(places)).reshape(side + 1, -1), np.indices((side, side))

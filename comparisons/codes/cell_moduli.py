@@ -1,5 +1,5 @@
-"""Moduli of a cell beside a sheet's, the error that remains on the finest mesh, and parameters of codes for
-meshes of the cell.
+"""Moduli of a repeated cell compared with a sheet's, the error of its finest mesh, and the corresponding
+parameters of codes.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class CellInScene(Answer):
 
     @property
     def succeeded(self) -> bool:
-        """Whether the error in the scene is known, or needs not be."""
+        """Whether the error in the scene is known or was not requested."""
         return not self.missing
 
     def complaints(self) -> list[str]:
@@ -75,7 +75,7 @@ def undamped(code: Code, material: Material) -> str:
 
 UNITS = {"A": "N/m", "D": "N·m", "S": "N/m"}
 SPACINGS, MOST = 8, 1e4  # cells along the shorter side, unless a spacing is given; at most
-MISSED = 0.01  # of the sheet's modulus 11
+LARGEST_DIFFERENCE = 0.01  # of the sheet's modulus 11
 COEFFICIENTS: tuple[Any, ...] = ("coefficient", "unit", NUMBER("#.6g", "value"))
 
 
@@ -92,7 +92,8 @@ class ModulusRow:
 
 @dataclass(frozen=True, repr=False)
 class CellModuli(CellInScene):
-    """A cell's coefficients for a scene's sheet, the moduli they give, and the error of fine meshes there.
+    """Coefficients of a cell for a scene's sheet, the resulting moduli, and the error of fine meshes in the
+    scene.
 
     Hinges have the coefficient that is best in this scene; nearest: the coefficients whose moduli come
     nearest to the sheet's, and the error that they leave, where that is another."""
@@ -153,7 +154,7 @@ class CellModuli(CellInScene):
         return self._describe_error() or super().result()
 
     def notes(self) -> list[str]:
-        rows = (row for row in self.rows if abs(row.difference) > MISSED)
+        rows = (row for row in self.rows if abs(row.difference) > LARGEST_DIFFERENCE)
         missed = [f"{row.modulus} by {number(100 * row.difference, '+.0f')} %" for row in rows]
         notes = ["difference: over the sheet's A11, D11 or S."]
         if missed:

@@ -99,7 +99,8 @@ def _evaluate_field(point: np.ndarray) -> np.ndarray:
 
 
 def _constrain_motion(nodes: np.ndarray) -> np.ndarray:
-    """Return rows of the mean displacements and, for a cell with thickness, mean turns of its normal."""
+    """Return the constraints on a cell's rigid motion: rows of its mean displacements and, with thickness, of
+    the mean turns of its normal."""
     heights = nodes[:, 2] - nodes[:, 2].mean()
     rows = [np.kron(np.ones(len(nodes)), axis) for axis in np.eye(3)]
     if np.any(heights):
@@ -109,14 +110,14 @@ def _constrain_motion(nodes: np.ndarray) -> np.ndarray:
 
 COARSE = 8  # elements of the shells of a search
 STIFF = 1e3  # times κGh, of a cell whose normals stay normal
-LOST = 1e3  # error of moduli in a search with which the sheet has no stable equilibrium
-TURNED = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0.5, 2.0]])
+FAILED_ERROR = 1e3  # error of moduli in a search with which the sheet has no stable equilibrium
+MANDEL_WEIGHTS = np.array([[1.0, 1.0, 2.0**0.5], [1.0, 1.0, 2.0**0.5], [2.0**0.5, 2.0**0.5, 2.0]])
 
 
 def nearest(
     cell: Cell, material: Material, thickness: float, fixed: Mapping[str, float] | None = None
 ) -> dict[str, float]:
-    """Return the coefficients, none negative, with moduli nearest to the sheet's; coefficients in `fixed`
+    """Return the nonnegative coefficients whose moduli are nearest to the sheet's; coefficients in `fixed`
     keep their values.
 
     Triangles have the membrane's λh = E ν h/(1 − ν²) and μh = E h/2(1 + ν), bricks Lamé's constants. The
@@ -139,7 +140,7 @@ def nearest(
     def weighted(values: np.ndarray) -> np.ndarray:
         moduli = moduli_of(cell, fixed_values | dict(zip(names, values * sizes, strict=True)))
         pairs = ((moduli.membrane, target.membrane), (moduli.bending, target.bending))
-        return np.concatenate([(TURNED * (a - b) / b[0, 0]).ravel() for a, b in pairs])
+        return np.concatenate([(MANDEL_WEIGHTS * (a - b) / b[0, 0]).ravel() for a, b in pairs])
 
     if not names:
         return fixed_values
@@ -175,7 +176,7 @@ def limit_errors(scene: Scene, elements: int = 16) -> Callable[[Moduli], float]:
 
 
 def least_error(scene: Scene, moduli: Callable[[float], Moduli], low: float, high: float) -> float:
-    """Return the number between low and high whose moduli leave the least error in the limit in this scene.
+    """Return the number between low and high whose moduli have the least error in a scene on the finest mesh.
     Raises NoEquilibrium where the sheet is unstable with its own moduli, or with the moduli of every number
     tried."""
     error_of = limit_errors(scene, COARSE)
@@ -184,11 +185,11 @@ def least_error(scene: Scene, moduli: Callable[[float], Moduli], low: float, hig
         try:
             return error_of(moduli(float(np.exp(logarithm))))
         except NoEquilibrium:
-            return LOST
+            return FAILED_ERROR
 
     bounds = (float(np.log(low)), float(np.log(high)))
     minimum = minimize_scalar(off, bounds=bounds, method="bounded", options={"xatol": 5e-3})
-    if minimum.fun == LOST:
+    if minimum.fun == FAILED_ERROR:
         raise NoEquilibrium("no coefficients of this mesh have a stable equilibrium in this scene")
     return float(np.exp(minimum.x))
 
@@ -203,7 +204,7 @@ def _make_section(scene: Scene, moduli: Moduli) -> Section:
 
 
 def best_hinge(scene: Scene, cell: Cell, coefficients: dict[str, float]) -> float | None:
-    """Return the hinges' coefficient that leaves the least error in the limit in this scene, None of a cell
+    """Return the hinges' coefficient with the least error in a scene on the finest mesh, None for a cell
     without hinges. Searched from a twentieth to ten times the coefficient given."""
     if "hinge" not in coefficients:
         return None
@@ -222,15 +223,16 @@ FIVE = (
 HEIGHTS = (0.2, 5.0)  # of the layers, over the thickness
 
 
-def five(i: int, j: int) -> list[list[tuple[int, int, int]]]:
-    """Return the tetrahedra of square (i, j): corners as indices along x and y, and layers."""
+def square_tetrahedra(i: int, j: int) -> list[list[tuple[int, int, int]]]:
+    """Return the five tetrahedra between both layers over square (i, j); corners as (x index, y index,
+    layer)."""
     flip = (i + j) % 2
     return [[(i + (x ^ flip), j + y, layer) for x, y, layer in cell] for cell in FIVE]
 
 
 def tetrahedral_cell(spacing: float, height: float) -> Cell:
     """Return two layers of nodes with springs "k" along every side of the tetrahedra between them."""
-    cells = (corners for i in range(2) for j in range(2) for corners in five(i, j))
+    cells = (corners for i in range(2) for j in range(2) for corners in square_tetrahedra(i, j))
     places = [[(i % 2 * 4 + j % 2 * 2 + layer, i // 2, j // 2) for i, j, layer in cell] for cell in cells]
     nodes = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (-0.5, 0.5)])
     periods = 2.0 * spacing * np.eye(2)
@@ -275,6 +277,6 @@ def layered_springs(scene: Scene, spacing: float, best: bool = False) -> dict[st
 
 
 def _fit_factor(form: np.ndarray, target: np.ndarray) -> float:
-    """Return the factor that brings a form nearest to a target, in Mandel's norm."""
-    weighted = TURNED**2 * form
+    """Return the factor on a form that minimises its distance from a target, in Mandel's norm."""
+    weighted = MANDEL_WEIGHTS**2 * form
     return float(np.sum(weighted * target) / np.sum(weighted * form))

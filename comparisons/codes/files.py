@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 Keys = Mapping[str, float]
 JSON = "sheet.json"
-FAR = 50.0  # radii: half the length of a cylinder that touches the sheet
+HALF_LENGTH = 50.0  # radii: half the length of a cylinder that touches the sheet
 MJCF = """\
 <mujoco model="sheet">
 <option timestep="0.002" integrator="discrete" gravity="{gravity}"/>
@@ -46,7 +46,7 @@ MJCF = """\
 {loads}</mujoco>
 """
 JOINT = '<joint name="{name}{axis}" type="slide" axis="{along}" damping="0.0"/>'
-SMALL = '<inertial pos="0 0 0" mass="{mass!r}" diaginertia="1e-09 1e-09 1e-09"/>'  # it does not turn
+POINT_INERTIA = '<inertial pos="0 0 0" mass="{mass!r}" diaginertia="1e-09 1e-09 1e-09"/>'  # it does not turn
 
 
 @dataclass(frozen=True)
@@ -61,13 +61,13 @@ class Problem:
     clamp: float = 1.0
 
 
-def words(values: Any) -> str:
+def join_numbers(values: Any) -> str:
     """Return numbers with all their digits, separated by spaces."""
     return " ".join(map(repr, np.asarray(values).ravel().tolist()))
 
 
 def script(name: str) -> str:
-    """Return the text of a program that goes with the files."""
+    """Return the text of a script in the folder `scripts`."""
     return (resources("comparisons.codes") / "scripts" / name).read_text(encoding="utf-8")
 
 
@@ -83,17 +83,17 @@ def mujoco(of: Problem) -> str:
         if not held:
             axes = zip("xyz", ("1 0 0", "0 1 0", "0 0 1"), strict=True)
             joints = "".join(JOINT.format(name=name, axis=axis, along=along) for axis, along in axes)
-            joints += SMALL.format(mass=mass)
+            joints += POINT_INERTIA.format(mass=mass)
             loads |= {f"{name}{axis}": value for axis, value in zip("xyz", force, strict=True) if value}
-        bodies.append(f'<body name="{name}" pos="{words(place)}">{joints}<site name="{name}"/></body>')
+        bodies.append(f'<body name="{name}" pos="{join_numbers(place)}">{joints}<site name="{name}"/></body>')
     motors = "".join(f'<motor joint="{joint}"/>\n' for joint in loads)
-    keyframe = f'<keyframe><key name="loaded" ctrl="{words([*loads.values()])}"/></keyframe>\n'
+    keyframe = f'<keyframe><key name="loaded" ctrl="{join_numbers([*loads.values()])}"/></keyframe>\n'
     return MJCF.format(
-        gravity=words(mesh.gravity),
+        gravity=join_numbers(mesh.gravity),
         bodies="\n".join(bodies),
         radius=mesh.offset,
         names=" ".join(names),
-        element=words(mesh.triangles),
+        element=join_numbers(mesh.triangles),
         damping=f' damping="{of.keys["damping"]!r}"' if "damping" in of.keys else "",
         loads=f"<actuator>\n{motors}</actuator>\n{keyframe}" if loads else "",
         **{name: of.keys[name] for name in ("young", "poisson", "thickness")},
@@ -101,12 +101,11 @@ def mujoco(of: Problem) -> str:
 
 
 def _geom(obstacle: Mapping[str, Any]) -> str:
-    """Return an obstacle as MuJoCo's element, its axis along z; a cylinder is FAR times as long as it is
-    thick."""
+    """Return an obstacle as a MuJoCo geom; half the length of a cylinder is HALF_LENGTH times its radius."""
     along, radius = obstacle.get("normal", obstacle.get("axis")), obstacle.get("radius", 0.0)
-    size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {FAR * radius!r}"}
-    turned = "" if along is None else f' zaxis="{words(along)}"'
-    kind, at, friction = obstacle["kind"], words(obstacle["position"]), obstacle["friction"]
+    size = {"plane": "0 0 1", "sphere": f"{radius!r}", "cylinder": f"{radius!r} {HALF_LENGTH * radius!r}"}
+    turned = "" if along is None else f' zaxis="{join_numbers(along)}"'
+    kind, at, friction = obstacle["kind"], join_numbers(obstacle["position"]), obstacle["friction"]
     return (
         f'<geom type="{kind}" size="{size[kind]}" pos="{at}"{turned} condim="{3 if friction else 1}" '
         f'friction="{friction!r} 0 0"/>'
@@ -118,15 +117,15 @@ def vtk(of: Problem) -> str:
     assert of.tetrahedra is not None
     count = len(of.tetrahedra)
     lines = ["# vtk DataFile Version 2.0", "sheet", "ASCII", "DATASET UNSTRUCTURED_GRID"]
-    lines += [f"POINTS {len(of.mesh.vertices)} double", *map(words, of.mesh.vertices)]
-    lines += [f"CELLS {count} {5 * count}", *(f"4 {words(cell)}" for cell in of.tetrahedra)]
+    lines += [f"POINTS {len(of.mesh.vertices)} double", *map(join_numbers, of.mesh.vertices)]
+    lines += [f"CELLS {count} {5 * count}", *(f"4 {join_numbers(cell)}" for cell in of.tetrahedra)]
     return "\n".join([*lines, f"CELL_TYPES {count}", *["10"] * count]) + "\n"
 
 
 def obj(of: Problem) -> str:
     """Return Wavefront OBJ."""
-    corners = [f"f {words(triangle + 1)}" for triangle in of.mesh.triangles]
-    return "\n".join([*(f"v {words(place)}" for place in of.mesh.vertices), *corners]) + "\n"
+    corners = [f"f {join_numbers(triangle + 1)}" for triangle in of.mesh.triangles]
+    return "\n".join([*(f"v {join_numbers(place)}" for place in of.mesh.vertices), *corners]) + "\n"
 
 
 OWN_MASSES = ("newton", "mujoco", "genesis")  # those whose files give each vertex a mass of its own
@@ -194,16 +193,16 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
     springs = zip(*(column.tolist() for column in columns), strict=True)
     return SCENE.format(
         plugins="\n".join(f'  <RequiredPlugin name="Sofa.Component.{one}" />' for one in PLUGINS.split()),
-        gravity=words(gravity),
+        gravity=join_numbers(gravity),
         drag=lattice.damping_rate,
-        places=words(places),
-        rest=words(lattice.positions),
-        edges=words(links.masses),
-        masses=words(lattice.mass),
+        places=join_numbers(places),
+        rest=join_numbers(lattice.positions),
+        edges=join_numbers(links.masses),
+        masses=join_numbers(lattice.mass),
         supports="".join(_format_fixed(held, axes) for axes in np.unique(held, axis=0)[::-1] if axes.any()),
         springs=" ".join(f"{a} {b} {k!r} {c!r} {length!r}" for (a, b), k, c, length in springs),
-        loads=f'    <ConstantForceField template="Vec3d" indices="{words(loaded)}" '
-        f'forces="{words(forces[loaded])}" />\n'
+        loads=f'    <ConstantForceField template="Vec3d" indices="{join_numbers(loaded)}" '
+        f'forces="{join_numbers(forces[loaded])}" />\n'
         if len(loaded)
         else "",
     )
@@ -211,8 +210,8 @@ def to_sofa(lattice: Description, scene: Scene) -> str:
 
 def _format_fixed(held: np.ndarray, axes: np.ndarray) -> str:
     """Return a constraint for all points held along the given axes."""
-    indices = words(np.flatnonzero((held == axes).all(axis=1)))
+    indices = join_numbers(np.flatnonzero((held == axes).all(axis=1)))
     if axes.all():
         return f'    <FixedProjectiveConstraint indices="{indices}" />\n'
-    along = words(axes.astype(int))
+    along = join_numbers(axes.astype(int))
     return f'    <PartialFixedProjectiveConstraint indices="{indices}" fixedDirections="{along}" />\n'

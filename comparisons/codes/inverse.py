@@ -27,7 +27,7 @@ LAYERED, FLAT = "tetrahedra", "alternate-diagonals"
 SOLVED, UNKNOWN = 1e-9, 1e-6  # of residuals; of a direction that no parameter depends on
 BENDS = ("edge_ke", "bendingStiffness", "bending", "bend", "bendingStiffMult")  # 0 where hinges are free
 MOST_POISSON = 0.4999  # of an isotropic material
-SLENDER = 5.0  # nodes' distance over the thickness: below it the mesh is no thin sheet's
+LEAST_SPACING = 5.0  # nodes' distance over the thickness: below it the mesh is no thin sheet's
 QUANTITIES = {  # of the sheet: symbol and unit
     **{"young": ("E", "Pa"), "poisson": ("ν", ""), "thickness": ("h", "m"), "stretching": ("E h", "N/m")},
     **{"membrane": ("A11", "N/m"), "bending": ("D11", "N·m"), "density": ("ρ", "kg/m³")},
@@ -65,7 +65,7 @@ class SheetOfCode(Answer):
             return "its bending stiffness is not given"
         if not self.bending:
             return "D11 = 0 N·m: a sheet with this membrane has some bending stiffness"
-        if self.spacing and self.thickness and self.thickness * SLENDER > self.spacing:
+        if self.spacing and self.thickness and self.thickness * LEAST_SPACING > self.spacing:
             return (
                 f"D11 = {self.bending:.3g} N·m needs a sheet with this membrane that is not thin, "
                 f"{1e3 * self.thickness:.3g} mm, with vertices {1e3 * self.spacing:.3g} mm apart"
@@ -125,7 +125,7 @@ def sheet_of(
     if missing := [name for name in membrane if name not in values]:
         raise BadInput(f"{option} the numbers do not determine {', '.join(missing)} of the membrane")
     if row.hinge != "height" and {"hinge", "layers"} & values.keys() and not spacing:
-        raise BadInput(f"{option} --spacing: how far apart are the vertices? The bending depends on it")
+        raise BadInput(f"{option} --spacing: the distance of vertices is needed: bending depends on it")
     distance = spacing or 1.0
     if layered:
         shape = tetrahedral_cell(distance, values["layers"])

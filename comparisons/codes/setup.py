@@ -1,4 +1,4 @@
-"""A scene in another code's words: parameters, mesh, and the files that the code reads.
+"""Conversion of a scene for another code: parameters, mesh, and the files that the code reads.
 
 Hinges have the coefficient that is best in the scene, as far as a cell of that mesh can be right there, and
 without a scene's answer at rest the one whose moduli are nearest to the sheet's. A hinge on a clamp bends
@@ -46,7 +46,7 @@ from sheetbench.scenes.objects.supports import Hinged, Point
 SQUARES = 8  # along the shorter side
 LAYERED = "tetrahedra"
 PEAK = 2.0  # shear next to corners, over the mean along held edges
-NEAR = 0.02  # of a square's side, from a clamp to the row beyond it
+CLAMP_OFFSET = 0.02  # of a square's side, from a clamp to the row beyond it
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,7 +73,7 @@ class CodeSetup(CellInScene):
         """Mesh and parameters, for the files. Raises BadInput for what codes of triangles do not have."""
         keys = {**{key.name: key.value for key in self.keys}, **self.given}
         material, tetrahedra = self.scene.material, None
-        near = NEAR if self.best and self.code.hinge == "height" else 1.0
+        near = CLAMP_OFFSET if self.best and self.code.hinge == "height" else 1.0
         flat = sheet_mesh(self.scene, self.squares, self.cell.name, near)
         if self.code.mesh == LAYERED:
             flat, tetrahedra = with_layers(self.scene, flat, self.squares, self.coefficients["layers"])
@@ -108,7 +108,7 @@ class CodeSetup(CellInScene):
             notes.append(warning)
         if any(isinstance(support, Point) for support in self.scene.supports):
             notes.append(
-                "A sheet held at a point gives way there without limit as a mesh gets finer: hold a part, "
+                "The displacement at a point support diverges as a mesh gets finer: hold a part, "
                 "[[support]] with where = { rectangle = … }, for meshes to agree."
             )
         if self.code.mesh == LAYERED and any(isinstance(s, Hinged | Point) for s in self.scene.supports):
@@ -189,7 +189,7 @@ def setup(
     coefficients: Mapping[str, float] | None = None,
     given: Mapping[str, float] | None = None,
 ) -> CodeSetup:
-    """Return a scene in a code's words.
+    """Return a scene's parameters, mesh and files for a code.
 
     best: whether hinges are those best in the scene; named: whether the user named the scene: without, no
     number is of it. The answer has no error, and a note, for a scene whose sheet has no stable equilibrium.

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.codes.cell import cut_squares
-from comparisons.codes.coefficients import five
+from comparisons.codes.coefficients import square_tetrahedra
 from sheetbench.errors import BadInput
 from sheetbench.scenes import EDGES, Clamped, EdgeLoad, Hinged, PointLoad, Scene, Sheet
 from sheetbench.scenes.objects.fields import POINTS
@@ -31,9 +31,10 @@ ONE, ALTERNATE = "one-diagonal", "alternate-diagonals"
 
 @dataclass(frozen=True)
 class SheetMesh:
-    """Vertices (n, 3) [m], triangles (m, 3), which vertices are held, masses (n,) [kg], dead forces besides
-    weight (n, 3) [N], gravity (3,) [m/s²]; for each probe vertices around it and their shares; obstacles as
-    plain data at their last places, and half the thickness [m], which the sheet keeps off them."""
+    """Triangle mesh of a sheet. vertices: (n, 3) [m]; triangles: (m, 3); held: mask of held vertices; masses:
+    (n,) [kg]; forces: dead forces besides weight (n, 3) [N]; gravity: (3,) [m/s²]; probes: vertices around
+    each probe and their weights; obstacles: plain data, at their last positions; offset: half the thickness
+    [m], the sheet's distance from obstacles in contact."""
 
     vertices: np.ndarray
     triangles: np.ndarray
@@ -154,8 +155,8 @@ def sheet_mesh(scene: Scene, squares: int, pattern: str = ALTERNATE, beyond_shar
 
 
 def _held_rows(shape: Shape, sheet: Sheet, squares: int) -> list[np.ndarray] | None:
-    """Return the first and last rows of vertices, along x and along y, that a point or a rectangle holds; or
-    None where its sides are not on rows of vertices."""
+    """Return the first and last rows of vertices, along x and along y, that a point or a rectangle holds, or
+    None if its sides are not on rows of vertices."""
     assert shape.rectangle is not None  # `refusal` has other shapes
     sides, rows = (shape.rectangle.x, shape.rectangle.y), []
     for ends, length, count in zip(sides, sheet.lengths, near_square(sheet, squares), strict=True):
@@ -179,7 +180,7 @@ def with_layers(scene: Scene, flat: SheetMesh, squares: int, height: float) -> t
         [2 * number[i, j] + layer for i, j, layer in corners]
         for square in number
         if (square[0] + 1, square[1] + 1) in number
-        for corners in five(*square)
+        for corners in square_tetrahedra(*square)
     ]
     lift = np.array([[0.0, 0.0, -0.5], [0.0, 0.0, 0.5]]) * height
     probes = {

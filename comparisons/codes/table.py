@@ -61,8 +61,8 @@ def _young(c: Numbers) -> float:
 
 
 def _spatial_poisson(c: Numbers) -> float:
-    """Return the ν whose three-dimensional λ/μ is the sheet's plane-stress one, ν/(1 + ν) of the sheet's
-    ν."""
+    """Return the Poisson's ratio ν/(1 + ν) for which a solid's λ/μ equals the plane-stress λ/μ of the
+    sheet."""
     return c["lambda_h"] / (2.0 * (c["lambda_h"] + c["mu_h"]))
 
 

@@ -25,8 +25,8 @@ NAMES = {  # and what they are
     "positions": "(n, 3) rest positions of the masses [m]",
     "index": "(n, 3) of each mass along x, along y, through the thickness",
     "mass": "(n,) [kg]",
-    "damping_rate": "drag of each mass over its mass [1/s]",
-    "critical_damping_rate": "of it at which the lowest mode does not swing [1/s]",
+    "damping_rate": "damping of each mass over its mass [1/s]",
+    "critical_damping_rate": "damping_rate at which the lowest mode is critically damped [1/s]",
     "symplectic_euler_step": "largest step [s]",
     "velocity_verlet_step": "largest step [s]",
     "link_masses": "(m, 2) masses at the ends",
@@ -34,13 +34,13 @@ NAMES = {  # and what they are
     "link_rest_length": "(m,) [m]",
     "link_stiffness": "(m,) [N/m]",
     "link_damping": "(m,) [N s/m]",
-    "area_corners": "(a, 4, p) masses whose mean is a corner, corners in turn",
+    "area_corners": "(a, 4, p) masses of each corner (their mean), corners in turn",
     "area_rest": "(a,) rest area [m2]",
     "area_stiffness": "(a,) [N/m]",
     "area_damping": "(a,) [N s/m]",
     "strain_corners": "(s, 4, p) as area_corners",
     "strain_rest": "(s,) rest area [m2]",
-    "strain_natural": "(s, 3) A.A, B.B, A.B of mean sides without stress [m2]",
+    "strain_natural": "(s, 3) A.A, B.B, A.B of mean sides A, B without stress [m2]",
     "strain_stiffness": "(s, 3) of e1, e2, g [N/m]",
     "strain_damping": "(s, 3) [N s/m]",
     "coupling_corners": "(f, 4, p) as area_corners",
@@ -58,15 +58,15 @@ NAMES = {  # and what they are
     "hold_axis": "(h,) along 0 = x, 1 = y, 2 = z",
     "hold_displacement": "(h,) [m]",
     "load": "(n, 3) dead forces [N]",
-    "pressure": "(c,) [Pa] on each of the cells pressed",
+    "pressure": "(c,) [Pa] on each cell under pressure",
     "pressed_corners": "(c, 4, p) as area_corners",
     "couple_masses": "(e, 2) top and bottom of an edge's column",
     "couple_before": "(e, p) masses of the column before it",
-    "couple_after": "(e, p) of the one after it",
+    "couple_after": "(e, p) masses of the column after it",
     "couple_moment": "(e,) [N m]",
-    "contact_masses": "(t, q) around a point that may touch an obstacle",
-    "contact_weights": "(t, q) of these masses, whose weighted mean it is",
-    "contact_values": "(t, 10) as contacts.csv has them, from x on",
+    "contact_masses": "(t, q) masses around a point that may touch an obstacle",
+    "contact_weights": "(t, q) their weights in the point's position",
+    "contact_values": "(t, 10) columns of contacts.csv from x on",
     "state_name": "(q,) names",
     "state_displacement": "(q, n, 3) [m]",
     "state_force": "(q, n, 3) gradient of the energy of springs and contact [N]",
@@ -166,7 +166,8 @@ def _list_cells(lattice: Description, width: int) -> Iterator[Row]:
 
 
 def natural(lattice: Description) -> str:
-    """Return the table of A·A, B·B and A·B without stress [m²] of rows of cells.csv, from 0, with sides."""
+    """Return the CSV table of the stress-free metric A·A, B·B and A·B [m²] of strain and coupling springs, by
+    row of cells.csv from 0."""
     places = np.cumsum([0, *(len(table.corners) for table in lattice.cells)])
     rows = (
         row
@@ -189,7 +190,7 @@ def contacts(lattice: Description, scene: Scene) -> dict[str, str]:
 
 
 def _pad_columns(values: np.ndarray, width: int) -> np.ndarray:
-    """Return rows with zeros behind them, of so many columns."""
+    """Return rows padded with zeros to a number of columns."""
     return np.pad(values, ((0, 0), (0, width - values.shape[1])))
 
 

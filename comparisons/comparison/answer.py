@@ -76,7 +76,7 @@ class CostRow:
 
 
 def settling(scene: Scene) -> str:
-    """Return advice on a motion that may bring the sheet to rest if statics fail."""
+    """Return advice to try a damped motion, which may settle where the static solve fails."""
     material = scene.material
     damped = material.damping_rate or material.dashpot_time or material.branches.times or scene.dampers
     until = AT_REST / (material.damping_rate or DEFAULT_RATE)

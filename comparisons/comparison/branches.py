@@ -1,6 +1,6 @@
 """Lattice and reference on one branch of equilibria, for scenes with several branches.
 
-If both models are at rest but differ by more than FAR, the lattice is solved once more from the shell's
+If both models are at rest but differ by more than DIFFERENT, the lattice is solved once more from the shell's
 shape, and if necessary the shell from the lattice's. Points at the height z over the mid-surface start on its
 normal,
 
@@ -22,7 +22,7 @@ from comparisons.pictures.plan import on_sheet
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes import Scene
 
-FAR = 0.2  # of the largest displacement: larger differences may mean another branch
+DIFFERENT = 0.2  # of the largest displacement: larger differences may mean another branch
 SAME = 0.5  # of the difference: the new answer must be nearer than this
 ROUNDING = 1e-9  # of the longer side
 STEP = 1e-3  # of the shorter side: difference quotients of the mid-surface
@@ -66,11 +66,11 @@ def on_one_branch(
 
 def may_differ(u: np.ndarray, other: np.ndarray) -> bool:
     """Return whether displacements at the probes (n, 3) [m] differ so much that branches may differ."""
-    return bool(np.abs(u - other).max() > FAR * np.abs(other).max())
+    return bool(np.abs(u - other).max() > DIFFERENT * np.abs(other).max())
 
 
 def _on_branch(again: Solution, points: np.ndarray, target: np.ndarray, previous: np.ndarray) -> bool:
-    """Return whether an answer is stable, and nearer to the target's displacements than to the previous."""
+    """Return whether an answer is stable, and nearer to the displacements `target` than to `previous`."""
     u = again.displacement(points)
     gap = np.abs(target - previous).max()
     return again.status is Status.CONVERGED and bool(np.abs(u - target).max() < SAME * gap)

@@ -16,9 +16,9 @@ from comparisons.sweep.differences import error
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.scenes.language.summary import few
 
-FAR, SURE = 0.2, 1.0  # errors that need a reason, and errors beyond the effect of springs and strain laws
+LARGE, SURE = 0.2, 1.0  # errors that need a reason, and errors beyond the effect of springs and strain laws
 NEARER = 0.6  # fraction of the error on a finer grid below which the grid was too coarse
-STAYS = 0.75  # fraction of the error, extrapolated to first order, above which branches differ
+REMAINS = 0.75  # fraction of the error, extrapolated to first order, above which branches differ
 STRAIN_LAW = 2.3 * 2.0  # times the largest stretch: larger errors are not due to strain laws (model_error)
 UNKNOWN = 0.5  # error bar of the reference above which no reason can be given
 
@@ -29,7 +29,7 @@ def far_apart_note(
     bar: float | None,
     solve: Callable[[Lattice], Solution | None],
 ) -> tuple[str, bool]:
-    """Return a sentence on a difference above FAR between lattice and reference, "" for smaller ones; and
+    """Return a sentence on a difference above LARGE between lattice and reference, "" for smaller ones; and
     whether both certainly lie on different branches, which makes errors meaningless.
 
     solutions: lattice and reference first; bar: of the reference, None if unknown; solve: solves another
@@ -41,7 +41,7 @@ def far_apart_note(
     points = lattice.scene.probe_points()
     coarse_u, truth = first.displacement(points), reference.displacement(points)
     value = error(coarse_u, truth)
-    if value is None or value <= FAR:
+    if value is None or value <= LARGE:
         return "", False
 
     def reason(cause: str, addition: str = "", branches_differ: bool = False) -> tuple[str, bool]:
@@ -66,7 +66,7 @@ def far_apart_note(
     if bar is not None and bar > UNKNOWN:
         return reason(f"the {reference.model}'s error bar is ± {few(100.0 * bar)} %, take more --elements")
     extrapolated = error(2.0 * fine_u - coarse_u, truth) or 0.0
-    if extrapolated > STAYS * value and (value > SURE or _converges_within(lattice, reference, value)):
+    if extrapolated > REMAINS * value and (value > SURE or _converges_within(lattice, reference, value)):
         condition = "" if bar is not None else f", if the {reference.model}'s mesh is fine enough"
         text = f"they lie on different branches of equilibria{condition}, for {moves}"
         return reason(text, branches_differ=bar is not None)
@@ -74,7 +74,8 @@ def far_apart_note(
 
 
 def _converges_within(lattice: Resolved[Lattice], reference: Solution, error: float) -> bool:
-    """Return whether the lattice converges to within an error of the reference if both lie on one branch."""
+    """Return whether the lattice would converge to within `error` of the reference if both lay on one
+    branch."""
     return (
         converges(lattice.spec, lattice.grid)
         and not lattice.scene.actuators

@@ -21,7 +21,7 @@ import numpy as np
 from sheetbench.answers.history import History
 from sheetbench.answers.table import MILLIMETRES, MILLISECONDS, NUMBER
 
-STANDS_OUT = 0.05  # of the range of a component
+PROMINENCE = 0.05  # of the range of a component
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def extrema(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Return times [s], values and second differences (n, 3) of the prominent extrema."""
     from scipy.signal import find_peaks
 
-    least = STANDS_OUT * float(np.ptp(values))
+    least = PROMINENCE * float(np.ptp(values))
     if least == 0.0:
         return np.zeros((0, 3))
     at = np.sort(np.concatenate([find_peaks(sign * values, prominence=least)[0] for sign in (1.0, -1.0)]))

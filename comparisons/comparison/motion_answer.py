@@ -21,10 +21,10 @@ from sheetbench.scenes.meaning.motion import kinks
 
 DOUBTFUL, SHARE = 0.1, 1.0 / 3.0  # limits of a reliable reference's error bar: absolute, of a difference
 COARSER = {"mesh": "on larger elements", "step": "in longer steps"}
-WHOLE = ("largest", "rms", "peak", "period", "decay")  # keys of `measures.difference`
+OVERALL_KEYS = ("largest", "rms", "peak", "period", "decay")  # keys of `measures.difference`
 OF_A_RUN = ("label", "integrator", "settings", "status", "message", "steps", "setup_seconds", "solve_seconds")
 DIFFERENCES = (
-    *("model", "probe", *(PERCENT("z.2f", name) for name in WHOLE[:-1]), NUMBER("z.4f", "decay")),
+    *("model", "probe", *(PERCENT("z.2f", name) for name in OVERALL_KEYS[:-1]), NUMBER("z.4f", "decay")),
     *(PERCENT(".2g", "±"), Column("within ±")),
 )
 RUNS = (
@@ -98,7 +98,7 @@ class MotionComparison(Answer):
             return ""
         return (
             f"The {self.reference} itself is uncertain by {few(100 * bar)} % of its largest displacement: "
-            "use more --elements before judging by it."
+            "use more --elements before comparing with it."
         )
 
     def document(self) -> dict[str, Any]:
@@ -200,7 +200,7 @@ class MotionComparison(Answer):
                 rms = float(np.sqrt(np.mean(np.sum(errors**2, axis=1))))
                 rows.append((d["of"], probe, float(np.abs(errors).max()), rms, *[None] * 5))
             within = None if bar is None else not d["distinguishable"]
-            rows.append((d["of"], "all", *(d[name] for name in WHOLE), bar, within))
+            rows.append((d["of"], "all", *(d[name] for name in OVERALL_KEYS), bar, within))
         caption = (
             f"Difference from the {self.reference}: largest and rms over its largest displacement; "
             "decay: difference of the log decrements"

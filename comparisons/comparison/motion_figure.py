@@ -11,7 +11,7 @@ from sheetbench.answers.style import DARK, SERIES, plain
 
 MOST = 3  # probes
 COLOURS = (SERIES[0], SERIES[5], *SERIES[1:5], *SERIES[6:])  # the reference's first
-ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
+LEGEND: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 
 def compose(motions: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
@@ -34,14 +34,14 @@ def compose(motions: MotionComparison, style: FigureStyle = PLAIN) -> Figure:
         axis.set_title(f"$u_{'xyz'[component]}$ of {plain(probe, longest=40)}", loc="left", fontsize=7.5)
         axis.set_ylabel("displacement [mm]")
         if number == 0:
-            axis.legend(ncols=2, **ABOVE)
+            axis.legend(ncols=2, **LEGEND)
         lattice = histories[others[0]]
         count = min(len(lattice.time), len(truth.time))
         errors = np.abs(lattice.probes[probe][:count] - truth.probes[probe][:count]).max(axis=1)
         label = plain(probe, longest=20)
         panels[-1].plot(truth.time[:count], 100.0 * errors / scale, lw=1.0, label=label)
     panels[-1].set_ylabel("difference\n[% of the peak]")
-    panels[-1].legend(ncols=MOST, **ABOVE)
+    panels[-1].legend(ncols=MOST, **LEGEND)
     panels[-1].set_xlabel("time [s]")
     for axis in panels:
         axis.axhline(0.0, color=DARK, lw=0.3)

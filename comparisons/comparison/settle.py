@@ -28,7 +28,7 @@ from sheetbench.scenes.meaning.region import resultant
 from sheetbench.scenes.objects.material import UNDAMPED
 
 CREEPING, LONG, SAMPLES = 10.0, 1000.0, 100  # drag over ω; duration times ω; frames of the motion
-LEFT = 0.1  # change of a displacement from the end of the motion, over the largest one
+LARGEST_CHANGE = 0.1  # change of a displacement from the end of the motion, over the largest one
 
 
 def require_settling(models: Iterable[Resolved[Any]]) -> None:
@@ -45,7 +45,7 @@ def solved_from_motion(model: Resolved[Any], name: str) -> LocalSolve:
     points = model.scene.probe_points()
     shape_at_rest, answer = at_rest(points), row.answer
     difference = np.abs(answer.displacement(points) - shape_at_rest).max(initial=0.0)
-    left = bool(difference > LEFT * np.abs(shape_at_rest).max(initial=0.0))
+    left = bool(difference > LARGEST_CHANGE * np.abs(shape_at_rest).max(initial=0.0))
     remarks = (
         *answer.remarks,
         *filter(None, [fault, "statics left the shape at the end of the motion" * left]),

@@ -1,5 +1,5 @@
-"""External finite-element codes: their protocol in cross-checks, a base class for codes that get a mesh here,
-and a search for the installed ones among the plug-ins.
+"""External finite-element codes: their protocol in cross-checks, a base class for codes that are given a mesh
+of ours, and the search for installed ones among the plug-ins.
 """
 
 from abc import ABC, abstractmethod

@@ -1,1 +1,1 @@
-"""A page on this machine where one drags and lattice and shell answer: `sheetbench live`."""
+"""A page on this machine with sliders, for which lattice and shell are solved: `sheetbench live`."""

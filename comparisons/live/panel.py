@@ -1,4 +1,4 @@
-"""The page's sliders with their bounds, and the reading of its questions.
+"""The page's sliders with their bounds, and the validation of its requests.
 
 A question has the values of the page's sliders, JSON from outside: names, types and bounds are checked, which
 are also what keeps a solve small.
@@ -32,7 +32,7 @@ SETTINGS = ("grid", "grading", "elements", "k")  # sliders of the models, not of
 
 @dataclass(frozen=True)
 class Slider:
-    """A number that can be dragged: its bounds and value in SI units, and how it is shown, times `factor`."""
+    """A slider: bounds and value in SI units, and the factor of the displayed value."""
 
     name: str
     label: str
@@ -45,14 +45,14 @@ class Slider:
     logarithmic: bool = False
 
     def require(self, value: float) -> None:
-        """Raise BadInput for a value that this page does not take."""
+        """Raise BadInput for a value out of bounds, or not whole if it must be."""
         if not self.low <= value <= self.high or (self.whole and value != int(value)):
             kind = "a whole number " if self.whole else ""
             raise BadInput(f"{self.name} = {value:g}: {kind}from {self.low:g} to {self.high:g} on this page")
 
 
 class Message(BaseModel):
-    """One setting of all sliders, as the page sends it; number: of the question."""
+    """Values of all sliders, as the page sends them; number: of the question."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
     number: Annotated[int, Field(ge=0, lt=2**53)]
@@ -73,8 +73,8 @@ class Panel:
     """The sliders of a scene."""
 
     def __init__(self, scene: Scene, elements: Count = ELEMENTS, lattice: Lattice | None = None) -> None:
-        """Start with the given elements and lattice; k has a slider if the lattice has one. Raises BadInput
-        for a value out of bounds."""
+        """Make the sliders, set to the given elements and lattice; k has a slider if the lattice has one.
+        Raises BadInput for a value out of bounds."""
         self.scene = scene
         self._lattice = lattice or Lattice()
         self.sliders = {s.name: s for s in _make_sliders(scene, elements, self._lattice)}
@@ -159,7 +159,7 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
             curve = parameter(scene, f"curvature_{edge}")
             limit = max(2 * abs(curve.value), 1.5 / min(scene.sheet.lengths))
             yield Slider(curve.name, f"Curvature of edge {edge}", "1/m", 1.0, -limit, limit, curve.value)
-    masses, finest = most(scene.sheet, MASSES_CAP - 1) + 1, most(scene.sheet, ELEMENTS_CAP)
+    masses, finest = largest_count(scene.sheet, MASSES_CAP - 1) + 1, largest_count(scene.sheet, ELEMENTS_CAP)
     grid, grading = str(lattice.grid or min(DEFAULT_MASSES, masses)), lattice.grading or 0.0
     if not (grid.isdecimal() and isinstance(grading, float | int) and isinstance(elements, int)):
         settings = f"grid = {grid}, grading = {grading}, elements = {counted(elements)}"
@@ -171,7 +171,7 @@ def _make_sliders(scene: Scene, elements: Count, lattice: Lattice) -> Iterator[S
     yield Slider("elements", "Shell elements along it", "", 1.0, 2, finest, min(elements, finest), whole=True)
 
 
-def most(sheet: Sheet, cap: int) -> int:
+def largest_count(sheet: Sheet, cap: int) -> int:
     """Return the largest number of near-square cells along the shorter side of a sheet with at most cap²
-    cells in all."""
+    cells."""
     return max((n for n in range(2, cap + 1) if prod(near_square(sheet, n)) <= cap**2), default=2)

@@ -1,4 +1,5 @@
-"""The server of the page: a few fixed files and its questions, on this machine's loopback alone.
+"""HTTP server of the page: fixed files and solves of the page's requests, on this machine's loopback
+interface.
 
     GET  /TOKEN/          the page; live.css, live.js, viewer.js, viewer.css beside it
     GET  /TOKEN/panel     the sliders
@@ -41,7 +42,7 @@ LOOPBACK = "127.0.0.1"
 MESSAGE = 4096  # bytes of a question at most
 CONNECTIONS = 32  # open at once
 SHELL_CELLS = 24  # along the shorter side, of the picture of the shell
-KEPT = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")  # of a solution
+SENT_KEYS = ("label", "status", "advice", "load_factor", "unknowns", "settings", "probes")  # of a solution
 FAULT = "a fault of the program; details are in its terminal"
 TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript"}
 HEADERS = {  # of every answer: scripts, styles and answers of this server alone, and nobody's frame
@@ -56,12 +57,15 @@ HEADERS = {  # of every answer: scripts, styles and answers of this server alone
 
 
 class Server(ThreadingHTTPServer):
-    """The panel, its secret address, and its executors; port: 0 takes any that is free."""
+    """HTTP server of one panel, under a secret address; port: 0 for any free one."""
 
     def __init__(self, panel: Panel, port: int = 0) -> None:
-        self.turn, self.shells = threading.Lock(), Processes(1)  # which a port that is taken closes again
+        self.lattice_lock, self.shells = (
+            threading.Lock(),
+            Processes(1),
+        )  # which a port that is taken closes again
         try:
-            super().__init__((LOOPBACK, port), Desk)
+            super().__init__((LOOPBACK, port), RequestHandler)
         except (OSError, OverflowError) as error:
             raise BadInput(f"--port = {port}: cannot be used: {error}") from None
         self.panel, self.assets, self.token = panel, _load_assets(panel), secrets.token_urlsafe(32)
@@ -69,32 +73,33 @@ class Server(ThreadingHTTPServer):
         self.address = f"http://{LOOPBACK}:{self.server_port}/{self.token}/"
 
     def server_close(self) -> None:
-        """Answer no more."""
+        """Close the server and end its worker process."""
         super().server_close()
         self.shells.shutdown(wait=False, cancel_futures=True)
 
     def verify_request(self, request: Any, client_address: Any) -> bool:
-        """Return whether few enough connections are open for one more."""
+        """Return whether another connection can be opened."""
         return threading.active_count() <= CONNECTIONS
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Ignore a connection that breaks; anything else the terminal shows."""
+        """Ignore broken connections; print the traceback of any other error."""
         if not isinstance(error := sys.exception(), OSError):
             traceback.print_exception(error)
 
 
-class Desk(BaseHTTPRequestHandler):
-    """One request; HTTP/1.0, which ends the connection with its answer: what else comes on it is not read."""
+class RequestHandler(BaseHTTPRequestHandler):
+    """Handler of one HTTP/1.0 request; the connection ends with the response."""
 
     server: Server
     timeout = 60.0  # s after which a connection that says nothing is closed
     server_version = sys_version = ""
 
     def log_message(self, *_: object) -> None:
-        """Log no request: the address in it is secret."""
+        """Do nothing: a logged request would reveal the secret address."""
 
     def refusal(self, needs_origin: bool = False) -> HTTPStatus | None:
-        """Set `what` to the path below the token, and return the status of a refusal, if any.
+        """Set `what` to the path below the token; return the HTTP status if the request is refused, else
+        None.
 
         The path needs the random token, compared in constant time; Host must be the loopback's, else a
         foreign name that was made to lead here (DNS rebinding) would do; an Origin that comes must be the
@@ -110,26 +115,26 @@ class Desk(BaseHTTPRequestHandler):
         return None if known and one else HTTPStatus.FORBIDDEN
 
     def do_GET(self) -> None:
-        """Answer with a file of the page, or with its panel."""
+        """Send a file of the page, or the panel."""
         refused = self.refusal()
         if refused or self.what not in self.server.assets:
             return self.reply(refused or HTTPStatus.NOT_FOUND)
         self.reply(HTTPStatus.OK, *self.server.assets[self.what])
 
     def do_POST(self) -> None:
-        """Answer a question; one that contradicts itself is refused in a line."""
+        """Solve a question and send the result; a contradictory question gets status 400 and a sentence."""
         length, refused = self.headers.get("Content-Length", ""), self.refusal(needs_origin=True)
         if not (length.isascii() and length.isdigit() and len(length) < 9 and int(length) <= MESSAGE):
             refused = refused or HTTPStatus.REQUEST_ENTITY_TOO_LARGE
-        if refused or self.what not in WAYS:
+        if refused or self.what not in SOLVERS:
             return self.reply(refused or HTTPStatus.NOT_FOUND)
         try:
             question = self.server.panel.read(self.rfile.read(int(length)))
             if self.what == "shell":
                 found = self.server.shells.submit(shell, question).result()
             else:
-                with self.server.turn:
-                    found = WAYS[self.what](question)
+                with self.server.lattice_lock:
+                    found = SOLVERS[self.what](question)
             self.reply(HTTPStatus.OK, found)
         except BadInput as error:
             self.reply(HTTPStatus.BAD_REQUEST, {"said": str(error)})
@@ -138,7 +143,7 @@ class Desk(BaseHTTPRequestHandler):
             self.reply(HTTPStatus.INTERNAL_SERVER_ERROR, {"said": FAULT})
 
     def reply(self, status: HTTPStatus, body: Any = None, kind: str = "application/json") -> None:
-        """Send an answer, bytes or a JSON document; without any, the refusal that the status is."""
+        """Send a response, bytes or a JSON document; by default the phrase of the status."""
         if not isinstance(body, bytes):
             body = json.dumps(body or {"said": status.phrase}, allow_nan=False).encode()
         own = {"Content-Type": kind, "Content-Length": str(len(body))}
@@ -149,22 +154,21 @@ class Desk(BaseHTTPRequestHandler):
         self.wfile.write(body)
 
 
-def solved(question: Question) -> Solution:
+def solve_lattice(question: Question) -> Solution:
     """Return the lattice's solution. Raises BadInput for a contradiction, like the others here."""
     return solve(resolve(question.scene, question.lattice))
 
 
 def lattice(question: Question) -> dict[str, Any]:
     """Return the lattice's message."""
-    solution = solved(question)
+    solution = solve_lattice(question)
     return _encode_answer(question, solution, "lattice", solution.mesh)
 
 
 def shell(question: Question) -> dict[str, Any]:
-    """Return the shell's message, with the lattice's difference from it: `error` (a fraction, null where it
-    has no meaning), and `difference` [m] at the masses, of those beyond a rim at the nearest point of the
-    sheet."""
-    scene, beside = question.scene, solved(question)
+    """Return the shell's message with the lattice's difference from it: `error`, a fraction or null if it is
+    not defined, and `difference` [m] at the masses, for masses off the sheet at its nearest point."""
+    scene, beside = question.scene, solve_lattice(question)
     solution = solve(resolve(scene, Elements("shell", question.elements)))
     plan, probes = plan_mesh(scene, SHELL_CELLS), scene.probe_points()
     mesh = FieldMesh(plan.points, plan.cells, {"displacement": solution.displacement(plan.points[:, :2])})
@@ -185,10 +189,10 @@ def _encode_answer(question: Question, solution: Solution, model: str, mesh: Fie
     fields = [{**flat, "kind": "difference"}] if model == "lattice" else []  # until the shell has answered
     sheet = viewer_sheet(model, mesh, model.capitalize(), fields, question.scene)
     found = {"number": question.number, "said": said, "seconds": solution.solve_seconds, "sheet": sheet}
-    return found | {name: known[name] for name in KEPT}
+    return found | {name: known[name] for name in SENT_KEYS}
 
 
-WAYS = {"lattice": lattice, "shell": shell}
+SOLVERS = {"lattice": lattice, "shell": shell}
 
 
 def _load_assets(panel: Panel) -> dict[str, tuple[Any, str]]:

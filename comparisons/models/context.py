@@ -1,4 +1,5 @@
-"""Settings of all solves inside a call: progress, and whether models above the free memory are allowed.
+"""Settings of all solves within a call: the progress function, and whether models larger than the free memory
+are allowed.
 
 `with running(large=True, progress=print):` holds for every solve of the block in this thread. Verbs have the
 options `large` and `progress` (`comparisons.cli.verb`); functions below do not pass them on.

@@ -19,7 +19,7 @@ are not in it. No estimate is given
 
 - for calibrations whose answers do not converge to the sheet's, a given k or layer distance, linear answers;
 - if either answer is no stable equilibrium, or only one of them snapped;
-- if the load bends the sheet within FOLD cells of the finer grid: both grids miss the fold, and agree;
+- if the load bends the sheet within CELLS cells of the finer grid: both grids miss the fold, and agree;
 - if points hold each other in the sheet's plane: the lattice has no limit there, nor has the sheet;
 - if a ball touches on less than a cell of the finer grid: the error depends on where in a cell it is;
 - if the estimate is above FAR: the answers may lie on different branches;
@@ -46,17 +46,17 @@ from sheetbench.scenes import EDGES, Chain, Scene
 from sheetbench.scenes.language.summary import few
 from sheetbench.scenes.objects.grid import LAYERS, Grid
 from sheetbench.scenes.objects.obstacles import Box, Plane, Sphere
-from sheetbench.scenes.objects.supports import points_pull
+from sheetbench.scenes.objects.supports import points_overconstrain
 
 FINER = 1.5  # ratio of cells
 FINEST_COARSE = 12  # cells along the shorter side of the finer grid, at least
-FOLD = 1.5  # cells of the finer grid in the layer that a load bends (`comparisons.models.layers`), at least
+CELLS = 1.5  # cells of the finer grid in the layer that a load bends (`comparisons.models.layers`), at least
 FAR = 0.5  # of the largest displacement
 LAW = 0.2  # of the largest stretch: difference of lattice and shell due to their laws of strain
 MOST = 5000  # masses in plan
 LARGE = 0.02  # estimates above it get advice on how to lower them
 ROUNDING = 1e-9  # of the largest displacement
-PINNED = "points that hold each other in the sheet's plane sink into it the more, the finer a grid is"
+PINNED = "point supports over-constrain the sheet's plane: their displacement diverges on finer grids"
 
 
 @dataclass(frozen=True)
@@ -116,9 +116,9 @@ def converges(lattice: Lattice, finer: Grid) -> bool:
 
 
 def resolves(scene: Scene, grid: Grid) -> bool:
-    """Return whether the boundary layer of the scene's load spans at least FOLD cells of a grid."""
+    """Return whether the boundary layer of the scene's load spans at least CELLS cells of a grid."""
     cell = max(length / (n - 1) for length, n in zip(scene.sheet.lengths, grid[:2], strict=True))
-    return all(layer.bent_edge or layer.width >= FOLD * cell for layer in layers(scene))
+    return all(layer.bent_edge or layer.width >= CELLS * cell for layer in layers(scene))
 
 
 def finer_of(scene: Scene, lattice: Lattice) -> tuple[Grid, float] | NoEstimate:
@@ -154,7 +154,7 @@ def expected_error(
     resolved lattice; solve: solves the finer lattice, None if it needs too much memory."""
     if solution.status is not Status.CONVERGED:
         return NoEstimate(f"the lattice is {solution.status}")
-    if points_pull(scene.supports, bool(scene.actuators)):
+    if points_overconstrain(scene.supports, bool(scene.actuators)):
         return NoEstimate(PINNED)
     refinement = finer_of(scene, lattice)
     if isinstance(refinement, NoEstimate):

@@ -41,11 +41,14 @@ def resolve_calibration(scene: Scene, grid: Sequence[int], lattice: Lattice) -> 
         return RUBBER, f"the material has the law {scene.material.law}"
     if scene.material.law is not None and lattice.calibration not in OF_A_LAW:
         omission = f"the material's law {scene.material.law}, which {RUBBER} has, is left out"
-        return lattice.calibration, f"linear springs: {omission}, at a stretch of ε about ε of the force"
+        return (
+            lattice.calibration,
+            f"linear springs: {omission}: an error of about ε at a stretch ε",
+        )
     if lattice.calibration != AUTO and not (is_open and lattice.grading == AUTO):
         return lattice.calibration, ""
     if grid[2] != LAYERS and not scales(scene).strain > STRETCHED:
-        return CALIBRATION, f"the usual one, of {grid[2]} layers"
+        return CALIBRATION, f"the default, for {grid[2]} layers"
     return method_for(scene)
 
 
@@ -56,7 +59,7 @@ def method_for(scene: Scene) -> tuple[str, str]:
     held = {support.edge for support in scene.supports}
     at_rest = all(isinstance(s, Clamped | Hinged | Curved) and s.motion is None for s in scene.supports)
     if scene.actuators or not held or not at_rest or scene.shaped_by:
-        return CALIBRATION, "the usual one, for edges that are not simply clamped, hinged or bent"
+        return CALIBRATION, "the default, for edges that are not simply clamped, hinged or bent"
     if scene.material.poisson > INCOMPRESSIBLE:
         return MEMBRANE, f"ν = {scene.material.poisson:g} is above {INCOMPRESSIBLE:g}"
     if len(held) == 1:

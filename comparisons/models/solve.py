@@ -29,7 +29,7 @@ from sheetbench.scenes import Scene, load
 from sheetbench.scenes.meaning.composition import composition_at
 from sheetbench.scenes.meaning.region import share_of
 
-Watch = Callable[[Iteration], None]  # called at every iteration
+OnIteration = Callable[[Iteration], None]  # called at every iteration
 EVEN, SETTLED = 0.02, 5.0  # of the duration, or s: until then steps grow and no remaining time is shown
 COARSE = (Lattice((3, 3, 2)), *(Elements(kind, 2) for kind in REFERENCES))
 
@@ -76,7 +76,7 @@ def _with_composition(mesh: FieldMesh, scene: Scene) -> FieldMesh:
     return FieldMesh(mesh.points, mesh.cells, mesh.point_data, {**mesh.cell_data, **cell_data})
 
 
-def _solve(model: Resolved[Any], watch: Watch | None, near: Any = None) -> Solution:
+def _solve(model: Resolved[Any], watch: OnIteration | None, near: Any = None) -> Solution:
     spec, scene = model.spec, model.scene
     if isinstance(spec, Lattice):
         import lumped

@@ -13,7 +13,7 @@ from sheetbench.answers.style import DARK, GREY, plain
 from sheetbench.scenes.objects.grid import near_square
 
 MOST, CELLS = 6, 24  # modes; cells along the shorter side
-SHADES = "RdBu_r"
+COLOUR_MAP = "RdBu_r"
 STILL = 0.02  # of the largest displacement: parts that move less, as along a clamp, have no nodal line
 
 
@@ -48,7 +48,7 @@ def compose(spectra: Spectra, style: FigureStyle = PLAIN) -> Figure:
             height = np.ma.masked_all(len(plan))
             height[on_sheet] = value / (np.abs(value).max() or 1.0)
             value = height.reshape(len(y), len(x))
-            axis.pcolormesh(x, y, value, cmap=SHADES, vmin=-1, vmax=1, shading="gouraud", rasterized=True)
+            axis.pcolormesh(x, y, value, cmap=COLOUR_MAP, vmin=-1, vmax=1, shading="gouraud", rasterized=True)
             if not in_plane and value.min() < 0.0 < value.max():
                 still = maximum_filter(np.abs(value.filled(0.0)), 3) < STILL
                 nodal = np.ma.masked_where(still | value.mask, value)

@@ -1,4 +1,4 @@
-"""The manifest of a folder as a page reads it: of the shape that verbs write it in, or refused.
+"""Validated reading of a folder's manifest, as verbs write it.
 
 What a run was given and found, under "settings" and "scene", may be anything: it is checked by the code that
 shows it.
@@ -28,7 +28,7 @@ Name = Annotated[str, AfterValidator(_name)]
 
 
 class Words(TypedDict, total=False):
-    """The words of a run's answer (`sheetbench.answers.report.Report.words`)."""
+    """The texts of a run's answer (`sheetbench.answers.report.Report.words`)."""
 
     title: str
     subtitle: str | None

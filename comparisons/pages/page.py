@@ -31,7 +31,7 @@ from sheetbench.scenes.meaning.words import in_words
 
 PACKAGE = "comparisons.pages"
 AS_THEY_ARE = ("title", "verb", "place", "command", "date", "result", "notes", "complaints")  # of a study
-MANY = 4  # studies from which on each is folded
+FOLDED_FROM = 4  # studies from which on each is folded
 TIMES = ("duration", "step", "largest_step", "every")
 MACHINE = {"processor": "{}", "cpu_count": "{} processors", "system": "{}", "python": "Python {}"}
 UNITS = {"layer_distance": "m", "k": "N/m", **dict.fromkeys(TIMES, "s")}  # of settings
@@ -56,7 +56,7 @@ def page(contents: FolderContents, title: str) -> str:
         title=title,
         studies=values,
         ambiguous={title for title, count in titles.items() if count > 1},
-        brief=len(values) > MANY,
+        brief=len(values) > FOLDED_FROM,
         troubles=list(dict.fromkeys(troubles)),
         made_with=made_with(),
         policy=policy(script, style),
@@ -138,7 +138,7 @@ def question(study: Study) -> list[tuple[str, str]]:
     """Return pairs of a topic and its sentence: of the scene, of each model's settings, of common settings;
     reasons of choices are among the notes."""
     scene = study.scene
-    sentences = study.attempt("scene", lambda: [*in_words(scene)]) if scene is not None else []
+    sentences = study.guarded("scene", lambda: [*in_words(scene)]) if scene is not None else []
     settings = study.run.get("settings")
     settings = settings if isinstance(settings, dict) else {}
     nested = {k: v for k, v in settings.items() if isinstance(v, dict)}
@@ -169,7 +169,7 @@ def _shorten(key: str, value: Any) -> str:
 
 def pictures(study: Study) -> list[tuple[str, str]]:
     """Return names and data addresses of a study's pictures; of a picture in several formats the first."""
-    names = {Path(name).stem: name for name in reversed(study.ending(".png", ".svg", ".gif"))}
+    names = {Path(name).stem: name for name in reversed(study.with_suffix(".png", ".svg", ".gif"))}
     images = ((name, study.read(name, _encode_picture)) for name in reversed(names.values()))
     return [(name, address) for name, address in images if address]
 

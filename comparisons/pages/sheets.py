@@ -1,4 +1,4 @@
-"""Meshes with fields as the viewer takes them: plain data, ready for JSON.
+"""Meshes with fields in the viewer's format: plain data, ready for JSON.
 
 Numbers go as little-endian bytes in base64, four a number: float32 keeps seven digits, a tenth of a
 micrometre on a metre, and takes half the room of decimals. Lengths are in metres, also of displacements.
@@ -26,9 +26,9 @@ LINES = 8  # cells a side that lines on a finer surface mark
 
 @cache
 def own_text(name: str) -> str:
-    """Return a file of the page: `viewer.js` is `source/` bundled with three.js by `make viewer` and defines
-    `Sheets.createViewer(element, options)`, whose options `source/index.js` describes and this module makes;
-    it makes no request and evaluates no text."""
+    """Return the text of a file of the page. `viewer.js` is `source/` bundled with three.js by `make viewer`;
+    it defines `Sheets.createViewer(element, options)`, with the options that this module makes and
+    `source/index.js` describes, makes no request and evaluates no text."""
     return resources.files("comparisons.pages").joinpath(name).read_text(encoding="utf-8")
 
 
@@ -40,7 +40,7 @@ def packed(values: Any) -> dict[str, str]:
 
 
 def displaced(component: str | None = None) -> dict[str, Any]:
-    """Return the field that the viewer makes of the displacement itself: its length, or a component x, y or
+    """Return a field that the viewer computes from the displacement: its magnitude, or a component x, y or
     z."""
     if component is None:
         return {"name": "displacement", "label": "Displacement", "unit": "mm", "scale": 1e3}
@@ -158,8 +158,8 @@ def _find_links(mesh: FieldMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _find_sides(mesh: FieldMesh) -> np.ndarray:
-    """Return sides of quadrilaterals, (m, 2): all of a coarse mesh, of a finer regular mesh the lines that
-    cut it into LINES cells a side, so that its shape is visible."""
+    """Return the sides of quadrilaterals to draw, (m, 2): all of a coarse mesh; of a finer regular mesh, the
+    lines that divide it into LINES cells along each side."""
     quads = _find_cells(mesh, QUADS, 4)
     sides = np.unique(np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0)
     mask = np.zeros(len(sides), dtype=bool)

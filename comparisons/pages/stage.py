@@ -1,4 +1,4 @@
-"""Sheets of a study in three dimensions: its VTU files as options of the viewer.
+"""Options of the three-dimensional viewer, from a study's VTU files.
 
 A file has point data `displacement`; a comparison's plan grid has one a model, and the difference; a file of
 modes has one a mode. A PVD file lists the moments of a motion.
@@ -25,22 +25,24 @@ Options = dict[str, Any]
 
 
 def stage(study: Study) -> Options | None:
-    """Return the viewer's options, or None where there are no sheets to show."""
-    meshes = {name: mesh for name in study.ending(".vtu") if (mesh := study.read(name, _read_mesh))}
-    motions = {name: series for name in study.ending(".pvd") if (series := study.read(name, _read_series))}
+    """Return the viewer's options, or None without sheets to show."""
+    meshes = {name: mesh for name in study.with_suffix(".vtu") if (mesh := study.read(name, _read_mesh))}
+    motions = {
+        name: series for name in study.with_suffix(".pvd") if (series := study.read(name, _read_series))
+    }
     sheets: list[Options] = []
     views: list[Options] = []
     models = _list_models(study.document)
     for name, frames in motions.items():
         model = Path(name).stem if Path(name).stem in models else ""
         key = model or name
-        sheet = study.attempt(name, partial(_animate_frames, key, frames, study.scene))
+        sheet = study.guarded(name, partial(_animate_frames, key, frames, study.scene))
         if sheet is not None:
             sheets.append(sheet)
             field_name = _choose_field(frames[-1][1])
             views.append({"name": key, "label": model or "Motion", "sheets": [key], "field": field_name})
     for name, mesh in meshes.items():
-        parts = study.attempt(name, partial(_split_file, name, mesh, study))
+        parts = study.guarded(name, partial(_split_file, name, mesh, study))
         for sheet, view in parts or []:
             sheets.append(sheet)
             views.append(view)

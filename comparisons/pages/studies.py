@@ -113,40 +113,40 @@ class Study:
         return list(dict.fromkeys(complaints))
 
     def read(self, name: str, reader: Callable[[Path], Any]) -> Any:
-        """Return a reader's value of a file, or None and add a sentence for one that is missing, outside, too
-        large or damaged."""
+        """Return the result of a reader on a file. For a file that is missing, outside the folder, too large
+        or damaged, return None and add a sentence to `troubles`."""
         path = self.folder / name
         if not path.resolve().is_relative_to(self.folder.resolve()):
             self.troubles.append(f"{name}: lies outside {self.folder.name}, left alone")
         elif not path.is_file():
-            self.troubles.append(f"{self.named(name)}: the manifest names it, but it is not there")
+            self.troubles.append(f"{self.path_of(name)}: the manifest names it, but it is not there")
         elif path.stat().st_size > LARGEST:
-            self.troubles.append(f"{self.named(name)}: too large for a page, left out")
+            self.troubles.append(f"{self.path_of(name)}: too large for a page, left out")
         else:
             try:
                 return reader(path)
             except RecursionError:
-                self.troubles.append(f"{self.named(name)}: damaged, nested too deeply")
+                self.troubles.append(f"{self.path_of(name)}: damaged, nested too deeply")
             except (Exception, SystemExit) as error:  # readers of meshes raise and exit as they like
-                self.troubles.append(f"{self.named(name)}: damaged, cannot be read: {foreign(error)}")
+                self.troubles.append(f"{self.path_of(name)}: damaged, cannot be read: {foreign(error)}")
         return None
 
-    def attempt(self, what: str, made: Callable[[], Any]) -> Any:
-        """Return the value of a call on words that may be damaged, or None and add a sentence for damaged
-        ones."""
+    def guarded(self, what: str, made: Callable[[], Any]) -> Any:
+        """Return the result of a call on the manifest's texts. If they are damaged, return None and add a
+        sentence to `troubles`."""
         try:
             return made()
         except Exception as error:  # the document may hold anything
             self.troubles.append(
-                f"{self.named(what)}: cannot be shown: {type(error).__name__}: {foreign(error)}"
+                f"{self.path_of(what)}: cannot be shown: {type(error).__name__}: {foreign(error)}"
             )
         return None
 
-    def named(self, name: str) -> str:
-        """Return a file as the reader finds it."""
+    def path_of(self, name: str) -> str:
+        """Return a file's path below the root."""
         return f"{self.place}/{name}" if self.place else name
 
-    def ending(self, *suffixes: str) -> list[str]:
+    def with_suffix(self, *suffixes: str) -> list[str]:
         """Return names of its files with the given suffixes."""
         return [name for name in self.files if name.lower().endswith(suffixes)]
 
@@ -174,8 +174,8 @@ def read(root: Path) -> FolderContents:
 
 
 def _collect(folder: Path, place: str, contents: FolderContents) -> None:
-    """Add the studies of a folder and of all below it but a run's own folders, hidden ones and links; place:
-    its path below the root."""
+    """Add the studies of a folder and of its subfolders, except output folders of runs, hidden folders and
+    links; place: the folder's path below the root."""
     try:
         paths = [path for path in sorted(folder.iterdir()) if not path.name.startswith(".")]
     except OSError as error:
@@ -221,7 +221,7 @@ def tables(study: Study) -> list[PageTable]:
         name, rows = f"{description.get('name')}.csv", description.get("rows")
         if rows is None and name in study.files:
             rows = (study.read(name, _read_rows) or [])[1:] or None
-        table = study.attempt(name, partial(_restore_table, description, rows)) if rows is not None else None
+        table = study.guarded(name, partial(_restore_table, description, rows)) if rows is not None else None
         if table:
             collected.append(table)
     return collected
@@ -233,7 +233,7 @@ def _read_rows(path: Path) -> list[list[str]]:
 
 
 def _strip_guard(cell: str) -> str:
-    """Return the cell without the apostrophe that keeps a spreadsheet from taking it for a formula."""
+    """Return a cell without the apostrophe that protects it from being read as a formula by spreadsheets."""
     return cell[1:] if cell[:1] == "'" and cell[1:2] in ("=", "+", "-", "@", "\t", "\r") else cell
 
 
@@ -251,7 +251,7 @@ def _restore_table(words: Mapping[str, Any], rows: Sequence[Sequence[Any]]) -> P
 
 
 def _parse_cell(column: Column, of_units: bool, value: Any) -> Any:
-    """Return a value as the table had it: a number, a row's unit, text, or nothing."""
+    """Return a cell's value in the original table: a number, a unit, text, or None."""
     if value in ("", None):
         return None
     if of_units:

@@ -41,8 +41,9 @@ def spread(
     corners: Sequence[tuple[int, int]] = CORNERS,
     frame: BboxBase | None = None,
 ) -> None:
-    """Move each label to the place near its point with the least overlap with taken boxes and earlier labels
-    and the least area outside the frame; corners: directions from the point, by preference."""
+    """Move each label to the position near its point with the least overlap with taken boxes and earlier
+    labels, and the least area outside the frame; corners: directions from the point, in order of
+    preference."""
     hidden = list(taken)
     for label in labels:
         places = [(step, x, y) for step in STEPS for x, y in corners]

@@ -54,7 +54,7 @@ class CaseRow:
 
 
 @dataclass(frozen=True)
-class Place:
+class ModelScore:
     """A model's score and the geometric mean of its times [s], None if not given; whose: one of `ORIGINS`."""
 
     model: str
@@ -100,12 +100,12 @@ class Score(ShownAnswer):
         ]
 
     @property
-    def leaderboard(self) -> list[Place]:
+    def leaderboard(self) -> list[ModelScore]:
         """Scores of the answers and of other models on their cases, the best first."""
         times = [answer.seconds for answer in self.answers if answer.seconds]
         seconds = _geometric(times) if len(times) == len(self.answers) else None
         others = other_models([answer.reference for answer in self.answers])
-        return sorted([Place(ANSWERS, self.score, seconds, YOURS), *others], key=lambda place: place.score)
+        return sorted([ModelScore(ANSWERS, self.score, seconds, YOURS), *others], key=lambda row: row.score)
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document of `sheetbench score`."""
@@ -140,7 +140,7 @@ class Score(ShownAnswer):
         cases = Table.of(CaseRow, self.cases, "Errors by case", "cases")
         caption = "Scores of our models and other programs on these cases"
         place = Table.of(
-            Place, self.leaderboard, caption, "place", fields=("model", "whose", "score", "seconds")
+            ModelScore, self.leaderboard, caption, "place", fields=("model", "whose", "score", "seconds")
         )
         return (cases, place) if len(self.leaderboard) > 1 else (cases,)
 
@@ -219,7 +219,7 @@ def _rows(answer: Answer) -> list[Row]:
     return [Row(case.name, name, error, differs) for name, error, differs in values]
 
 
-def other_models(cases: Sequence[Reference]) -> list[Place]:
+def other_models(cases: Sequence[Reference]) -> list[ModelScore]:
     """Return the stored scores of our models and of other programs with an answer to any of the cases."""
     rows: dict[str, dict[str, dict[str, Any]]] = {}
     names = {case.name for case in cases}
@@ -234,7 +234,7 @@ def other_models(cases: Sequence[Reference]) -> list[Place]:
         times = [row["seconds"] for row in answered if row["seconds"]]
         origin = OURS if answered[0]["model"] in OWN_MODELS else OTHERS
         score = mean([of_model[case.name]["error"] for case in cases], cases)
-        places.append(Place(name, score, _geometric(times) if times else None, origin))
+        places.append(ModelScore(name, score, _geometric(times) if times else None, origin))
     return places
 
 

@@ -37,7 +37,7 @@ def verdict(answers: Sequence[Answer], errors: Sequence[float], faults: Sequence
 
 
 def stiffness(answers: Sequence[Answer]) -> float | None:
-    """Return the relative excess stiffness that most answers share, None if there is none."""
+    """Return the relative excess stiffness common to most answers, None if there is none."""
     if answers[0].reference.suite == "motion":
         return None
     deviations = [_stiffer(answer) for answer in answers]

@@ -33,7 +33,7 @@ from sheetbench.answers.solution import Status
 from sheetbench.choices import INTEGRATORS, REFERENCE, VARIED
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.distances import farther
+from sheetbench.scenes.meaning.distances import scale_distance
 from sheetbench.scenes.meaning.parameters import put
 from sheetbench.scenes.objects.layers import Layer
 from sheetbench.scenes.objects.orthotropy import MODULI
@@ -187,7 +187,7 @@ def scaled(scene: Scene, name: str, factor: float) -> Scene:
             ]
             return put(scene, "thickness", factor * scene.sheet.thickness).replace(patches=tuple(patches))
         if name == "obstacle":
-            obstacles = tuple(farther(scene, obstacle, factor) for obstacle in scene.obstacles)
+            obstacles = tuple(scale_distance(scene, obstacle, factor) for obstacle in scene.obstacles)
             return scene.replace(obstacles=obstacles)
         loads = tuple(load.times(factor) for load in scene.loads)
         return scene.replace(gravity=scene.gravity and scene.gravity.times(factor), loads=loads)

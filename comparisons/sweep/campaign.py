@@ -34,7 +34,7 @@ from sheetbench.files import only_writer
 from sheetbench.sources import source, version
 
 GOING = "running"
-WATCHED = 5.0  # s between checks of a pool, whose workers may come and go
+CHECK_INTERVAL = 5.0  # s between checks of a pool, whose workers may come and go
 
 
 @dataclass(frozen=True)
@@ -176,7 +176,7 @@ class _Session:
                     current[_submit(executor, run)] = run
                     self.going[run.key] = run.label
                     self._report(run, GOING)
-                done, _ = wait(current, WATCHED, FIRST_COMPLETED)
+                done, _ = wait(current, CHECK_INTERVAL, FIRST_COMPLETED)
                 broken = []
                 for future in done:
                     run = current.pop(future)

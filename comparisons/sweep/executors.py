@@ -26,7 +26,7 @@ from sheetbench.errors import BadInput
 from sheetbench.heap import keep_freed_memory
 from sheetbench.process import ONE_THREAD
 
-PATIENCE = 10.0  # s, waiting time for a scheduler's answer and for its first worker
+TIME_LIMIT = 10.0  # s, waiting time for a scheduler's answer and for its first worker
 Pool = Callable[[int], Executor]  # makes an executor of a number of parallel runs
 
 
@@ -99,7 +99,7 @@ class Cluster:
 
     def width(self) -> int:
         """Return the present number of parallel runs: the cluster's threads, 1 for one worker. Raises
-        ClusterLost if no worker, or not this one, appears within `PATIENCE`."""
+        ClusterLost if no worker, or not this one, appears within `TIME_LIMIT`."""
         threads = self._threads()
         if self._worker is None:
             return sum(threads.values())
@@ -109,7 +109,7 @@ class Cluster:
 
     def _threads(self) -> dict[str, int]:
         try:
-            self._client.wait_for_workers(1, timeout=PATIENCE)
+            self._client.wait_for_workers(1, timeout=TIME_LIMIT)
             return dict(self._client.nthreads())
         except TimeoutError:
             raise ClusterLost("the cluster has no worker left") from None
@@ -130,7 +130,7 @@ def pool_of(scheduler: str | None) -> Iterator[Pool]:
     """Return processes of this machine, or the dask cluster at an address like tcp://host:8786.
 
     A cluster repeats an untimed run of a crashed worker on another one. Raises BadInput without
-    dask.distributed, and if no scheduler with a worker answers within `PATIENCE`.
+    dask.distributed, and if no scheduler with a worker answers within `TIME_LIMIT`.
     """
     if scheduler is None:
         yield Processes
@@ -144,8 +144,8 @@ def pool_of(scheduler: str | None) -> Iterator[Pool]:
         logging.getLogger(name).setLevel(logging.CRITICAL)
     with ExitStack() as stack:
         try:
-            client = stack.enter_context(Client(scheduler, timeout=PATIENCE))
-            client.wait_for_workers(1, timeout=PATIENCE)
+            client = stack.enter_context(Client(scheduler, timeout=TIME_LIMIT))
+            client.wait_for_workers(1, timeout=TIME_LIMIT)
         except (OSError, ValueError) as error:
             raise BadInput(
                 f"--scheduler = '{scheduler}': no scheduler there with a worker: {error}"
@@ -154,7 +154,7 @@ def pool_of(scheduler: str | None) -> Iterator[Pool]:
 
 
 def _join(stopped: Connection) -> None:
-    """End this worker as soon as its parent has ended or closed the other end of `stopped`."""
+    """End this worker process once its parent has ended or closed the other end of the pipe `stopped`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     keep_freed_memory()
     parent = multiprocessing.parent_process()

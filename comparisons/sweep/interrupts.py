@@ -1,4 +1,4 @@
-"""Interrupts hidden behind another exception.
+"""Detection of Ctrl-C behind another exception.
 
 A compiled function checks its arguments in Python code before it starts. An interrupt at that moment makes
 the interpreter raise a `SystemError`, "returned a result with an exception set", with the interrupt as cause.

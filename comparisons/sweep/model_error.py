@@ -168,9 +168,9 @@ def _strain_law(scene: Scene, answer: Solution) -> float:
 
 
 def left_for_grid(tolerance: float, model_error: float | None) -> float:
-    """Return the part of a tolerance for the grid's error and the reference's bar: the tolerance minus the
-    model error. If the latter exceeds the tolerance, the whole tolerance is returned and refers to a
-    converged reference."""
+    """Return the part of a tolerance that is left for the grid's error and the reference's bar: the tolerance
+    minus the model error. If the latter exceeds the tolerance, the whole tolerance is returned and refers to
+    a converged reference."""
     part = model_error or 0.0
     return tolerance if part >= tolerance else tolerance - part
 

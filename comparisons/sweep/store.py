@@ -29,7 +29,7 @@ COLUMNS = {
     "digest": "text not null",
 }
 _MOVE = "move it away to start over"
-_MEND = "make it readable and writable, with room on the disk and no other program's lock, or move it away"
+_REMEDY = "make it readable and writable, with room on the disk and no other program's lock, or move it away"
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ class Store:
         try:
             yield
         except sqlite3.Error as error:
-            raise BadInput(f"{self.path}: {error}; {_MEND}") from None
+            raise BadInput(f"{self.path}: {error}; {_REMEDY}") from None
 
 
 def _digest(values: Sequence[Any]) -> str:

@@ -19,7 +19,7 @@ PANEL, NAMES, TITLE = 3.1, 0.2, 0.25  # inches: of a panel, a row of names, the 
 MARKERS = {"lumped": "o", "plate": "v", "shell": "s", "solid": "D"}
 CORNERS = ((-1, -1), (1, 1), (-1, 1), (1, -1))  # positions of a size next to its point, by preference
 SIZE = "size of a row"
-STALLED = 0.25  # order below which an error is no smaller on finer meshes
+LEAST_ORDER = 0.25  # order below which an error is no smaller on finer meshes
 REFERENCE_COLOURS = {"plate": "#8a8a8a", "shell": "#222222", "solid": "#a0522d"}
 
 
@@ -45,7 +45,7 @@ def compose(tradeoff: Tradeoff | DynamicTradeoff, style: FigureStyle = PLAIN) ->
             line["ls"] = (0, (4, 1.5))
         label = plain(name)
         if slope is not None:
-            label += f"  (order {slope:.1f})" if slope >= STALLED else "  (does not converge)"
+            label += f"  (order {slope:.1f})" if slope >= LEAST_ORDER else "  (does not converge)"
         _against_time(left, rows, [i in on_front for i in positive], line, label, tradeoff.COST[1])
         points = [(1e3 * h, 100 * e) for h, e in (row.plot_point for row in rows) if h and e]
         if points:
@@ -149,7 +149,8 @@ def logarithmic(axis: Axes) -> None:
 
 
 def _labelled(axis: Axes, value: float) -> bool:
-    """Return whether a minor tick of x has a number: all below half a decade, 2 and 5 below 1.5 decades."""
+    """Return whether a minor tick on the x axis has a number: all if the axis spans less than half a decade,
+    2 and 5 if less than 1.5 decades."""
     low, high = axis.get_xlim()
     leading = round(value / 10.0 ** np.floor(np.log10(value)))
     return high < 10**0.5 * low or (high < 10**1.5 * low and leading in (2, 5))

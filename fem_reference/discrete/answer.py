@@ -18,7 +18,7 @@ from fem_reference.discrete.elements import DiscreteElements
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.discrete.sheet import Discrete
 from fem_reference.discrete.static import Forces, Static, StaticState
-from fem_reference.surface.balance import left_over
+from fem_reference.surface.balance import load_balance
 from fem_reference.surface.location import interpolate
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.clock import now
@@ -39,7 +39,7 @@ def shape_of(path: Path[StaticState, Forces]) -> SheetShape:
     return cast(Static, path.structure).shape(path.state, path.load_factor)
 
 
-class Traced(NamedTuple):
+class TracedPath(NamedTuple):
     """A path of a sheet at rest to its full load, with the seconds that setting up and solving took."""
 
     sheet: DiscreteElements
@@ -48,35 +48,36 @@ class Traced(NamedTuple):
     solve_seconds: float
 
 
-def inspected(path: Path[StaticState, Forces]) -> Fault | None:
-    """Return the fault that rejects a step of a path, if there is one."""
+def last_fault(path: Path[StaticState, Forces]) -> Fault | None:
+    """Return the fault of a path's last equilibrium, None if it is valid."""
     shape = shape_of(path)
     return shape.sheet.fault(shape)
 
 
-def traced(
+def trace_sheet(
     make: Callable[[], DiscreteElements],
-    inspect: Inspect[StaticState, Forces] = inspected,
+    inspect: Inspect[StaticState, Forces] = last_fault,
     near: Callable[[Any], Start[StaticState]] | None = None,
     **options: Any,
-) -> Traced:
-    """Return the path of a sheet that `make` builds. near: a function of the sheet that returns the path's
-    start; options: of `trace_path`."""
+) -> TracedPath:
+    """Build a sheet by `make`, and return the path to its full load with the times taken. near: a function of
+    the sheet that returns the path's start; options: of `trace_path`."""
     started = now()
     sheet = make()
     ready = now()
-    start, slenderness = near and near(sheet), sheet.scene.sheet.thickness / sheet.lever
+    start, slenderness = near and near(sheet), sheet.scene.sheet.thickness / sheet.longer_side
     settle = relax if sheet.creeps else None
     options = ({"limits": EXACT} if sheet.linear else {}) | options
     options |= {"near": start, "slenderness": slenderness}
     path = trace_path(Static(sheet), sheet.solver(), inspect, settle, **options)
     path.factor = None  # not kept with the run
-    return Traced(sheet, path, ready - started, now() - ready)
+    return TracedPath(sheet, path, ready - started, now() - ready)
 
 
 def equilibrium(sheet: DiscreteElements) -> tuple[np.ndarray, Status, list[str]]:
-    """Return q (N,) under the full load of a sheet at rest, how the path to it ended, and notes."""
-    path = traced(lambda: sheet).path
+    """Return the coordinates q (N,) of a sheet's equilibrium under full load, the status of its path, and
+    notes."""
+    path = trace_sheet(lambda: sheet).path
     return path.state.q, *path_status(path)
 
 
@@ -94,17 +95,17 @@ def solve_on(model: type[Discrete], mesh: MeshQuad, scene: Scene) -> Solution:
     Supports and loads act on the mesh's boundaries named like their edges ("x0", …), which may lie anywhere;
     the scene's sheet contributes only its thickness, and the lengths of edges with actuators."""
     kind: Any = model
-    run = traced(lambda: kind(mesh, scene))
+    run = trace_sheet(lambda: kind(mesh, scene))
     run.sheet.own_outline = True
-    return answered(run, elements=mesh.nelements)
+    return solution_of(run, elements=mesh.nelements)
 
 
 def _sample(sample: Any, mesh: MeshQuad, vectors: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.asarray(sample(points) + tangent_planes.change_at(mesh, vectors, points)[1])
 
 
-def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
-    """Return the solution of the first run; the other runs are its preparation, the last of them earliest.
+def solution_of(*runs: TracedPath, fallback: str = "", **settings: Any) -> Solution:
+    """Return the solution of the first of several runs; the others prepared its start, the latest first.
     settings: added to the settings of the sheet."""
     path = runs[0].path
     shape, share = shape_of(path), path.load_factor
@@ -121,7 +122,7 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
     edges, wrenches, line = sheet.wrenches(shape, residual)
     reactions, energies = sheet.reactions(residual, share), sheet.element.energies(shape.strain)
     holding_forces = sheet.holding(q, residual, share)
-    by_items = sheet.held_by_items(shape)
+    by_items = sheet.item_support_forces(shape)
     reactions |= {name: forces.sum(axis=0) for name, (_, forces) in by_items.items()}
     holding_forces += by_items.values()
     mesh = sheet.drawn(q, line if scene.actuators else None)
@@ -142,7 +143,7 @@ def answered(*runs: Traced, fallback: str = "", **settings: Any) -> Solution:
         mesh=mesh,
         contacts={name: state for name, (state, _) in contacts.items()},
         actuators=wrenches,
-        balance=left_over(scene, surface, edges, reactions, holding_forces, forces.size, allowed, share),
+        balance=load_balance(scene, surface, edges, reactions, holding_forces, forces.size, allowed, share),
         label=sheet.label,
         settings=sheet.settings | settings,
         status=status,

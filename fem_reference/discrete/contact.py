@@ -29,7 +29,7 @@ from fem_reference.surface.materials import constants_of
 from fem_reference.surface.mesh import Plan
 from sheetbench.answers.contact import ContactState
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.distances import Near, near, projector
+from sheetbench.scenes.meaning.distances import ContactPoints, near, projector
 from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 SOFTER, ROUNDED, STIFFER = 0.01, 0.3, 100.0  # in motion: of E/h, over which part of h rounded; of patches
@@ -39,9 +39,10 @@ Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # energy, loads and slopes 
 
 
 class Touching(SheetItem):
-    """Contact with one obstacle. share: of its stiffness; in an element's points basis (p, 9) of nodes,
-    shares (p, n) of nodes and of a (`tangent_planes`), hats (p, 9) of nodes, none negative; groups (t, 9) of
-    points: nine of each part, or one node nine times; levers: ζ (faces, m, 9) [m] of elements' nodes."""
+    """Contact of a sheet with one obstacle. share: of the penalty's stiffness in use; basis: (p, 9) shape
+    functions at an element's points; shares: (p, n) weights of its nodes and of a (`tangent_planes`) in the
+    surface there; hats: (p, 9) nonnegative weights of nodes; groups: (t, 9) points of each part, or one node
+    nine times; heights: ζ (faces, m, 9) [m] of elements' nodes."""
 
     def __init__(self, scene: Scene, plan: Plan, moving: bool, solid: bool, name: str, obstacle: AnyObstacle):
         self.name, self.obstacle, self.on = name, obstacle, plan.elements
@@ -53,7 +54,7 @@ class Touching(SheetItem):
         self.bent = not (moving or at_nodes)
         stiffness = (STIFFER if self.bent else 1.0) * constants.stretching / constants.thickness**2
         full = (weight * stiffness) @ AT_GAUSS[0] / of_nodes
-        self.levers = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), thickness)
+        self.heights = np.multiply.outer((-0.5, 0.5) if solid else (0.0,), thickness)
         if at_nodes:
             self.basis = self.hats = self.shares = np.eye(9)
             self.groups, self.area = np.repeat(np.arange(9), 9).reshape(9, 9), of_nodes
@@ -76,7 +77,7 @@ class Touching(SheetItem):
 
     def _faces(self, vectors: np.ndarray) -> np.ndarray:
         """Return φ + ζ d (faces, m, 9, 3) of vectors (m, 18, 3)."""
-        return np.asarray(vectors[:, :9] + self.levers[..., None] * vectors[:, 9:])
+        return np.asarray(vectors[:, :9] + self.heights[..., None] * vectors[:, 9:])
 
     def _points(self, vectors: np.ndarray) -> np.ndarray:
         """Return x (faces, m, p, 3) [m] of vectors (m, 18, 3)."""
@@ -87,24 +88,25 @@ class Touching(SheetItem):
         return np.asarray(self.shares @ faces)
 
     def _slopes(self, vectors: np.ndarray, on: np.ndarray) -> np.ndarray:
-        """Return derivatives (faces, k, n, 3, 18, 3) of nodes of faces, and of their a (`tangent_planes`), by
-        the vectors (k, 18, 3) of elements `on`."""
+        """Return the derivatives (faces, k, n, 3, 18, 3) of the faces' nodal positions and of a
+        (`tangent_planes`) by the vectors (k, 18, 3) of elements `on`."""
         nodes, size = np.arange(9), self.shares.shape[1]
-        out = np.zeros((len(self.levers), len(on), size, 3, 18, 3))
+        out = np.zeros((len(self.heights), len(on), size, 3, 18, 3))
         out[:, :, nodes, :, nodes] = np.eye(3)
-        out[:, :, nodes, :, nodes + 9] = np.moveaxis(self.levers[:, on], 2, 0)[..., None, None] * np.eye(3)
+        out[:, :, nodes, :, nodes + 9] = np.moveaxis(self.heights[:, on], 2, 0)[..., None, None] * np.eye(3)
         if self.bent:
             out[:, :, 9:] = tangent_planes.first(vectors)
         return out
 
-    def near(self, shape: SheetShape) -> Near:
-        """Return the places of points (faces, m, p) beside the obstacle."""
+    def near(self, shape: SheetShape) -> ContactPoints:
+        """Return the positions and depths of points (faces, m, p) relative to the obstacle."""
         return near(self.obstacle, self._points(shape.vectors), self.offset, shape.sheet.instant(shape.at))
 
-    def _pressed(self, shape: SheetShape) -> tuple[Near, Pressed]:
-        """Return the places of points beside the obstacle, and energies, loads and slopes of their groups."""
+    def _pressed(self, shape: SheetShape) -> tuple[ContactPoints, Pressed]:
+        """Return the points' positions and depths, and the energies, loads and load derivatives of their
+        groups."""
         found = self.near(shape)
-        depth = found.sunk[..., self.groups]
+        depth = found.penetration[..., self.groups]
         k = self.share * self.full[:, self.groups] * self.of_groups + 0.0 * depth
         if not self.rounded:
             return found, patch.integrals(depth, k, 2)
@@ -114,15 +116,15 @@ class Touching(SheetItem):
         return found, (energy, load, slope)
 
     def _at_points(self, load: np.ndarray) -> np.ndarray:
-        """Return sums at points (faces, m, p) of loads of groups."""
+        """Add up the loads of groups at points (faces, m, p)."""
         out = np.zeros((*load.shape[:2], len(self.basis)))
         face, element = (np.arange(n)[:, None, None] for n in load.shape[:2])
         np.add.at(out, (face[..., None], element, self.groups), load)
         return out
 
     def _pulled(self, shape: SheetShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return forces at points (faces, m, p, 3) [N], their part by dashpot and friction, and its
-        derivatives by the points' velocities (faces, m, p, 3, 3)."""
+        """Return the contact forces at points (faces, m, p, 3) [N], their dashpot and friction part, and that
+        part's derivatives by the points' velocities (faces, m, p, 3, 3)."""
         found, (_, load, _) = self._pressed(shape)
         velocity = self.obstacle.velocity(shape.sheet.instant(shape.at)[1])
         speed = self.basis @ self._faces(shape.rates) - velocity
@@ -156,13 +158,14 @@ class Touching(SheetItem):
         return self._between(shape, on, out, (loads[..., None] * found.slope[:, on]).sum(axis=0))
 
     def rate(self, shape: SheetShape, low: Touching, high: Touching, over: float) -> np.ndarray:
-        """Return the derivative (N,) of the force by a parameter, between contacts `low` and `high` that
-        differ by `over` in it, by their obstacles' place and size, offset and stiffness. The patch stays."""
+        """Return the derivative (N,) of the contact force by a parameter that changes by `over` from contact
+        `low` to contact `high`, through the obstacle's position and size, offset and stiffness. The patch
+        stays."""
         found, (_, load, slope) = self._pressed(shape)
         stiffer = copy(self)
         stiffer.full = (high.full - low.full) / over
         before, after = low.near(shape), high.near(shape)
-        deeper, turned = (after.sunk - before.sunk) / over, (after.slope - before.slope) / over
+        deeper, turned = (after.penetration - before.penetration) / over, (after.slope - before.slope) / over
         more = stiffer._pressed(shape)[1][1] + (slope @ deeper[..., self.groups, None])[..., 0]
         pull = self._at_points(more)[..., None] * found.slope + self._at_points(load)[..., None] * turned
         return self._onto(shape, pull)
@@ -170,8 +173,8 @@ class Touching(SheetItem):
     def _between(
         self, shape: SheetShape, on: np.ndarray, by: np.ndarray, pull: np.ndarray | None = None
     ) -> Tangent | None:
-        """Return derivatives of elements' forces by their vectors from derivatives `by` (faces, k, 3 n, 3 n)
-        at nodes of faces and their a; pull: at points (k, p, 3)."""
+        """Return the tangent of elements `on` by their vectors, from the derivatives `by` (faces, k, 3 n, 3
+        n) by the faces' nodal positions and a; pull: forces at points (k, p, 3)."""
         vectors = shape.vectors[on]
         first = self._slopes(vectors, on).reshape(*by.shape[:3], 54)
         out = (first.swapaxes(-1, -2) @ by @ first).sum(axis=0).reshape(-1, 18, 3, 18, 3)
@@ -190,12 +193,12 @@ class Touching(SheetItem):
 
     stored = potential
 
-    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+    def powers(self, shape: SheetShape) -> tuple[float, float]:
         velocity, (pull, rubbed, _) = self.obstacle.velocity(shape.at), self._pulled(shape)
         taken = rubbed.sum(axis=(0, 1, 2)) @ velocity - self._onto(shape, rubbed) @ shape.v
         return float(taken), float(pull.sum(axis=(0, 1, 2)) @ velocity)
 
-    def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    def support_forces(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {self.name: (self._points(shape.vectors), self._pulled(shape)[0])}
 
     def report(self, shape: SheetShape) -> tuple[ContactState, np.ndarray]:
@@ -207,6 +210,6 @@ class Touching(SheetItem):
         pressure = np.bincount(on, pressed.ravel()) / np.bincount(on, area.ravel())
         touched = slope.sum(axis=(0, 3, 4)) / (self.share * self.full[:, first])
         mean = np.where(energy > 0.0, 2.0 * energy / (load.sum(axis=3) + 1e-300), -np.inf)
-        deepest = np.maximum(found.sunk[..., self.groups].max(axis=3), mean).max(axis=0)
+        deepest = np.maximum(found.penetration[..., self.groups].max(axis=3), mean).max(axis=0)
         deepest /= self.thickness[:, first]
         return ContactState.of(deepest, touched, load), pressure

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from sheetbench.scenes import Chain, Scene
-from sheetbench.scenes.meaning.motion import let_go
+from sheetbench.scenes.meaning.motion import without_held_loads
 from sheetbench.scenes.objects.actuators import CurvatureTable
 from sheetbench.scenes.objects.sheet import Gravity
 from sheetbench.scenes.objects.tables import PiecewiseCurve
@@ -27,7 +27,7 @@ def loads_of(scene: Scene, moving: bool) -> Iterator[tuple[Scene, Factor]]:
     if not moving:
         yield scene, float  # the load factor itself
         return
-    scene = let_go(scene)
+    scene = without_held_loads(scene)
     bare = scene.replace(loads=(), gravity=None)
     for load in (scene.gravity, *scene.loads):
         if load is not None:

@@ -47,7 +47,7 @@ class DiscreteElements(Discrete):
         return q.reshape(-1, 3).take(self.sites, axis=0)
 
     def scatter(self, pull: np.ndarray) -> np.ndarray:
-        """Return sums (N,) of forces on the elements' vectors (m, a, 3)."""
+        """Assemble forces (N,) from forces on the elements' vectors (m, a, 3)."""
         return np.bincount(self._components, pull.ravel(), self.size)
 
     @cached_property
@@ -63,11 +63,12 @@ class DiscreteElements(Discrete):
 
     @abstractmethod
     def fold(self, shape: SheetShape, on: np.ndarray, tangent: np.ndarray) -> np.ndarray:
-        """Return derivatives (k, b, b) by unknowns from (k, 18, 3, 18, 3), of forces on elements `on`."""
+        """Transform the tangents (k, 18, 3, 18, 3) of forces on elements `on` to their unknowns, (k, b,
+        b)."""
 
     @abstractmethod
     def onto_rods(self, shape: SheetShape) -> np.ndarray:
-        """Return ∂Q/∂(unknowns) of the rods' sides (k, 3 a, b)."""
+        """Return the derivatives (k, 3 a, b) of the vectors Q of the rods' sides by the unknowns."""
 
     def places(self, bound: BoundRods) -> np.ndarray:
         """Return centres (M, 2) [m] in the plane of the plan's elements and then of the rods' sides."""
@@ -87,8 +88,8 @@ class DiscreteElements(Discrete):
         return np.asarray(self.basis(shape.q, shape.at) @ step)
 
     def fault(self, shape: SheetShape) -> Fault | None:
-        """Return the fault of an equilibrium with an element that has turned inside out, else None."""
-        message = self.inside_out(shape.q)
+        """Return the fault of an equilibrium with an inverted element, else None."""
+        message = self.inverted_element(shape.q)
         return Fault(Status.INVERTED, message) if message else None
 
     def stress(self, shape: SheetShape) -> np.ndarray:
@@ -161,11 +162,12 @@ class DiscreteElements(Discrete):
         """Return the pressure, linear in a change of the strain (m, k), of a law that has one, else None."""
         return None
 
-    def dragged(self, shape: SheetShape, drag: float) -> Self:
-        """Return the sheet whose equilibrium is the end of a step of creep from a shape, against drag σ."""
+    def creep_step(self, shape: SheetShape, drag: float) -> Self:
+        """Return the sheet with the stresses of a creep step against drag σ from a shape: its equilibrium
+        ends the step."""
         slow = copy(self)
         slow.creep = drag, shape.strain
-        slow.bodies = [body.dragged(shape, drag) for body in self.bodies]
+        slow.bodies = [body.creep_step(shape, drag) for body in self.bodies]
         return slow
 
     def strain(self, change: np.ndarray, at: float) -> np.ndarray:
@@ -177,8 +179,8 @@ class DiscreteElements(Discrete):
         """Return the sheet's strain energy [J]."""
         return sum(self.element.energies(shape.strain).values())
 
-    def measured(self, force: np.ndarray, scale: np.ndarray | float = 1.0) -> float:
-        """Return the norm [N] of forces; scale: 1, or the lever for forces on directors."""
+    def norm_of(self, force: np.ndarray, scale: np.ndarray | float = 1.0) -> float:
+        """Return the norm [N] of forces; scale: 1, or the longer side for forces on directors."""
         return float(np.linalg.norm(force / scale, self.norm))
 
     def scale_of(self, body: Rods) -> np.ndarray:
@@ -186,7 +188,7 @@ class DiscreteElements(Discrete):
         return self.scale[body.rows].reshape(body.elements.reference.shape)
 
     def summed(self, shape: SheetShape) -> float:
-        """Return Σ |B| |s| [N], the magnitudes of the forces' terms, on directors over the lever."""
+        """Return Σ |B| |s| [N], the magnitudes of the forces' terms, on directors over the longer side."""
         magnitudes = self.element.magnitudes(shape.operator, shape.elastic)
         total = float((magnitudes / self.scale[3 * self.sites[0]]).sum())
         for body in self.bodies:

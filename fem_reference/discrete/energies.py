@@ -23,7 +23,8 @@ class SheetMotion:
 
 
 def energies(sheet: DiscreteElements, motion: SheetMotion) -> tuple[float, float, float]:
-    """Return kinetic, elastic and potential energy [J] of a motion, with the energy of storing items."""
+    """Return the kinetic, elastic and potential energy [J] of a state in motion, items that store energy
+    included."""
     q, v, time = motion.q, motion.v, motion.time
     shape = sheet.shape(q, time, v)
     potential = sum(item.stored(shape) for item in sheet.items)
@@ -32,12 +33,14 @@ def energies(sheet: DiscreteElements, motion: SheetMotion) -> tuple[float, float
     return 0.5 * float(v @ (sheet.mass @ v)), elastic + stored, potential
 
 
-def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: float) -> np.ndarray:
-    """Return (2,): the energy [J] that dampers dissipate in a step, and the work [J] of prescribed motions
-    and loads. Both are forces times changes of coordinates; dampers use the forces that the step balances.
-    late: weight of the step's end in them."""
+def dissipation_and_work(
+    sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, end_weight: float
+) -> np.ndarray:
+    """Return the energy [J] dissipated in a step and the work [J] of prescribed motions and loads, (2,). Both
+    are forces times changes of coordinates; dampers use the forces that the step balances. end_weight: weight
+    of the step's end in those."""
     h, step, middle = end.time - start.time, end.q - start.q, 0.5 * (start.q + end.q)
-    rate = (1.0 - late) * start.v + late * end.v
+    rate = (1.0 - end_weight) * start.v + end_weight * end.v
     shape = sheet.shape(middle, 0.5 * (start.time + end.time), step / h)
     damped = 0.0
     if sheet.tau:
@@ -53,6 +56,6 @@ def spent(sheet: DiscreteElements, start: SheetMotion, end: SheetMotion, late: f
     for sign, time in ((1.0, end.time), (-1.0, start.time)) if sheet.natural is not None else ():
         work += 0.5 * sign * sum(sheet.elastic(sheet.shape(q, time)) for q in (start.q, end.q))
     for item in sheet.items:
-        lost, gained = item.exchanged(shape)
+        lost, gained = item.powers(shape)
         damped, work = damped + h * lost, work + h * gained
     return np.array([damped, work])

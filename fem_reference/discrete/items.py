@@ -17,8 +17,8 @@ Tangent = tuple[np.ndarray, np.ndarray]  # elements (k,) of the plan, and their 
 
 
 class SheetItem(Protocol):
-    """Item with a force; other methods have defaults. conservative: it has a potential, a symmetric
-    tangent."""
+    """Interface of an item that acts on a sheet: a force, and methods with defaults. conservative: it has a
+    potential, a symmetric tangent."""
 
     conservative: bool = True
 
@@ -33,8 +33,8 @@ class SheetItem(Protocol):
         """Return the derivative of the force by the rates of the surface's vectors."""
         return None
 
-    def holds(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Return places and forces (…, 3) [m], [N] with which the item holds the sheet, by name."""
+    def support_forces(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Return positions (…, 3) [m] and forces (…, 3) [N] by which the item supports the sheet, by name."""
         return {}
 
     def potential(self, shape: SheetShape) -> float:
@@ -45,13 +45,13 @@ class SheetItem(Protocol):
         """Return the part of the potential that a motion stores as energy [J]; the rest counts as work."""
         return 0.0
 
-    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
-        """Return power dissipated and power put in [W] in a moving shape."""
+    def powers(self, shape: SheetShape) -> tuple[float, float]:
+        """Return the power [W] dissipated by the item and the power that it supplies, in a moving shape."""
         return 0.0, float(self.force(shape) @ shape.v)
 
 
-class Dead(SheetItem):
-    """Force (N,) that depends on its factor alone."""
+class DeadLoad(SheetItem):
+    """DeadLoad force (N,), scaled by its factor."""
 
     def __init__(self, full: np.ndarray, factor: Factor):
         self._full, self._factor = full, factor
@@ -65,12 +65,12 @@ class Dead(SheetItem):
     def stored(self, shape: SheetShape) -> float:
         return self.potential(shape) if self._factor is None else 0.0
 
-    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+    def powers(self, shape: SheetShape) -> tuple[float, float]:
         return 0.0, 0.0 if self._factor is None else float(self.force(shape) @ shape.v)
 
 
-class Following(SheetItem):
-    """Load of `surface.loads` that follows the sheet, with its factor."""
+class FollowerLoad(SheetItem):
+    """Follower load of `surface.loads`, scaled by its factor."""
 
     def __init__(self, load: Follower, factor: Factor):
         self._load, self._factor, self.conservative = load, factor, load.conservative
@@ -117,7 +117,7 @@ class Drag(SheetItem):
         out[:, :9, :, :9] = np.einsum("eg,gi,egc,gj,egd->eicjd", share, *sides, optimize=True)
         return np.arange(len(out)), out
 
-    def exchanged(self, shape: SheetShape) -> tuple[float, float]:
+    def powers(self, shape: SheetShape) -> tuple[float, float]:
         return -float(self.force(shape) @ shape.v), 0.0
 
 

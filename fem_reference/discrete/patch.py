@@ -18,7 +18,7 @@ SUMS = np.eye(5)[np.add.outer(range(3), range(3)).ravel()]  # of products of coe
 INNER, INNER_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _T, _W = np.polynomial.legendre.leggauss(14)
 OUTER, OUTER_WEIGHTS = 0.5 * (3.0 * _T - _T**3), 1.5 * (1.0 - _T**2) * _W
-LEADING = 1e-13  # least leading coefficient, relative to the largest: it adds a root far away
+LEAST_COEFFICIENT = 1e-13  # least leading coefficient, relative to the largest: it adds a root far away
 FULL = 1e-12  # least value of a square that is positive all over, relative to the largest
 
 
@@ -26,7 +26,7 @@ def roots(c: np.ndarray) -> np.ndarray:
     """Return the real parts (e, n) of the roots of polynomials with coefficients c (e, n + 1), clipped to
     [−1, 1]. Coefficients are in ascending order."""
     n = c.shape[1] - 1
-    least = LEADING * np.abs(c).max(axis=1) + 1e-300
+    least = LEAST_COEFFICIENT * np.abs(c).max(axis=1) + 1e-300
     leading = np.where(np.abs(c[:, -1]) < least, least, c[:, -1])
     companion = np.zeros((len(c), n, n))
     companion[:, range(1, n), range(n - 1)] = 1.0

@@ -98,7 +98,7 @@ class Rods:
         return flat.swapaxes(1, 2) @ (stiff[:, :, None] * flat) + _by_axis(form)
 
     def inertial(self, a: np.ndarray) -> np.ndarray:
-        """Return M a (k, a, 3) of accelerations (N,) on the sides' vectors."""
+        """Return the inertial forces M a (k, a, 3) on the sides' vectors for accelerations (N,)."""
         return np.einsum("eij,ejc->eic", self._mass, self.gather(a))
 
     def driving(self, shape: SheetShape) -> np.ndarray:
@@ -119,8 +119,9 @@ class Rods:
         """Return Σ |B| |s| (k, a, 3), the magnitudes of the terms of forces on the sides' vectors."""
         return np.einsum("es,esic->eic", np.abs(stress), np.abs(self._gradient(self.gather(q))))
 
-    def dragged(self, shape: SheetShape, drag: float) -> Rods:
-        """Return rods of stresses (1 + σ) S e − σ S e_n − S e₀, a step of creep from a shape's e_n."""
+    def creep_step(self, shape: SheetShape, drag: float) -> Rods:
+        """Return the rods for a creep step against drag σ from a shape's strains e_n: their stresses are (1 +
+        σ) S e − σ S e_n − S e₀."""
         past = self._intrinsic(shape.at) + drag * self._strain(self.gather(shape.q))
         slow = copy(self)
         stiffness, intrinsic = (1.0 + drag) * self.elements.stiffness, past[..., None] / (1.0 + drag)
@@ -133,7 +134,7 @@ class Rods:
         return q[self.rows].reshape(self.elements.reference.shape)
 
     def scatter(self, of_sides: np.ndarray) -> np.ndarray:
-        """Return sums (N,) of forces (k, a, 3) on the sides."""
+        """Assemble forces (N,) from forces (k, a, 3) on the sides."""
         return np.bincount(self.rows.ravel(), of_sides.ravel(), self._size)
 
     def directors(self, q: np.ndarray) -> np.ndarray:
@@ -145,7 +146,7 @@ class Rods:
         return np.einsum("esij,ejc->esic", self.elements.forms, self._vectors(change))
 
     def _vectors(self, change: np.ndarray) -> np.ndarray:
-        """Return Q (k, a, 3) about which strains are formed."""
+        """Return the vectors Q (k, a, 3) at which B is evaluated."""
         return self.elements.reference + (0.0 if self._linear else change)
 
     def _step(self, gradient: np.ndarray, step: np.ndarray) -> np.ndarray:

@@ -1,4 +1,5 @@
-"""Discrete sheet in a shape: the quantities that forces, tangent and loads share, each formed once."""
+"""A discrete sheet in one shape: strains, stresses and moduli, computed once and used by forces, tangent and
+loads."""
 
 from functools import cached_property
 from typing import Any

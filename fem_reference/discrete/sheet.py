@@ -23,11 +23,11 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from fem_reference.discrete.contact import Touching
 from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
-from fem_reference.discrete.items import Dead, Drag, Following, SheetItem
+from fem_reference.discrete.items import DeadLoad, Drag, FollowerLoad, SheetItem
 from fem_reference.discrete.rods import Rods
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.surface import loads, rod
-from fem_reference.surface.actuator_forces import HoldingForces, OnEdge, exerted
+from fem_reference.surface.actuator_forces import HoldingForces, RodOnEdge, exerted
 from fem_reference.surface.balance import Surface
 from fem_reference.surface.location import interpolate
 from fem_reference.surface.mesh import Elements, Plan, divisions
@@ -47,7 +47,7 @@ class Discrete(ABC):
 
     Unknowns are x; forces in N; at: load factor or time [s]. norm: order of the norm that residuals are
     measured in; linear: strains are linear in the coordinates, and loads act on the flat sheet. any_strain:
-    whether the law of strain is meant for large strains. lever: the flat sheet's longer side [m].
+    whether the law of strain is meant for large strains. longer_side: the flat sheet's longer side [m].
     own_outline: whether the mesh has its outline in place of the scene's sheet. bodies: the rods, if any;
     commanded: the scene whose chains have the curvatures that the commands' factors multiply."""
 
@@ -86,8 +86,9 @@ class Discrete(ABC):
         self.settings = {"elements": list(counts), **given}
         return self
 
-    def again(self) -> Callable[[], Self] | None:
-        """Return a function that makes the sheet anew, None for a sheet without derivatives."""
+    def rebuild(self) -> Callable[[], Self] | None:
+        """Return a function that builds the sheet again, to compute derivatives, or None for a sheet
+        without."""
         return None
 
     def bound_rods(self) -> BoundRods:
@@ -106,8 +107,8 @@ class Discrete(ABC):
             for body in self.bodies:
                 self.weights.append((body.weight(part), factor))
                 dead = dead + body.scatter(self.weights[-1][0])
-            self.items += [Dead(dead, factor)] if dead.any() else []
-            self.items += [Following(load, factor) for load in followers]
+            self.items += [DeadLoad(dead, factor)] if dead.any() else []
+            self.items += [FollowerLoad(load, factor) for load in followers]
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
         common, bodies = (scene, self.plan, moving, self.model == "solid"), scene.named_obstacles().items()
@@ -125,14 +126,14 @@ class Discrete(ABC):
         return np.column_stack([self.plan.nodes, np.zeros(self.nodes)])
 
     @cached_property
-    def lever(self) -> float:
+    def longer_side(self) -> float:
         """Longer side of the flat sheet [m]."""
         return float(np.ptp(self.plan.nodes, axis=0).max())
 
     @cached_property
     def scale(self) -> np.ndarray:
-        """Scale (N,) of coordinates: 1 for positions, the lever for directors."""
-        return np.where(np.arange(self.size) < self.first_director, 1.0, self.lever)
+        """Scale (N,) of coordinates: 1 for positions, the longer_side for directors."""
+        return np.where(np.arange(self.size) < self.first_director, 1.0, self.longer_side)
 
     @property
     def symmetric(self) -> bool:
@@ -163,23 +164,25 @@ class Discrete(ABC):
         return turned or self.supports.jumps(time)
 
     @abstractmethod
-    def short(self, shape: SheetShape) -> np.ndarray:
-        """Return the step (N,) to the prescribed displacements and onto the constraints, linear in both."""
+    def gap_step(self, shape: SheetShape) -> np.ndarray:
+        """Return the linear correction (N,) that satisfies the prescribed displacements and the
+        constraints."""
 
     def on_supports(self, q: np.ndarray, at: float) -> np.ndarray:
-        """Return q (N,) moved to the prescribed displacements, on the constraints."""
-        return self.moved(q, self.short(self.shape(q, at)))
+        """Return q (N,) corrected to satisfy the prescribed displacements and the constraints."""
+        return self.moved(q, self.gap_step(self.shape(q, at)))
 
     @abstractmethod
-    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
-        """Return u̇ (N,) with the prescribed velocities from a time on, tangential to the constraints."""
+    def constrained_rate(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+        """Return the rates v (N,) with the prescribed velocities from a time on, projected to the tangent of
+        the constraints."""
 
     @abstractmethod
     def basis(self, q: np.ndarray, at: float = 0.0) -> csc_matrix:
-        """Return Z (N, unknowns)."""
+        """Return the matrix Z (N, unknowns), δq = Z x."""
 
     def moved(self, q: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Return q after a step Z x (N,), on the constraints."""
+        """Return q (N,) after a step Z x (N,), brought back onto the constraints."""
         return q + step
 
     def centripetal(self, q: np.ndarray, v: np.ndarray) -> np.ndarray:
@@ -202,18 +205,18 @@ class Discrete(ABC):
         """Return forces (N,) of all items."""
         return sum((item.force(shape) for item in self.items), np.zeros(self.size))
 
-    def held_by_items(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Return places (k, 3) [m] and forces (k, 3) [N] with which items hold the sheet, by name."""
-        held = {name: pair for item in self.items for name, pair in item.holds(shape).items()}
+    def item_support_forces(self, shape: SheetShape) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Return the positions (k, 3) [m] and forces (k, 3) [N] by which items support the sheet, by name."""
+        held = {name: pair for item in self.items for name, pair in item.support_forces(shape).items()}
         return {name: (at.reshape(-1, 3), force.reshape(-1, 3)) for name, (at, force) in held.items()}
 
     def wrenches(
         self, shape: SheetShape, residual: np.ndarray, a: np.ndarray | None = None
-    ) -> tuple[list[OnEdge], dict[str, np.ndarray], np.ndarray]:
+    ) -> tuple[list[RodOnEdge], dict[str, np.ndarray], np.ndarray]:
         """Return the rods' forces on their edges, the wrenches of the actuators' segments, and the line force
         (n, 3) [N/m]. A wrench is the force and moment (segments, 6) [N, N·m] on the sheet. residual: M ü + g
         (N,); a: ü (N,), 0 by default."""
-        edges = list[OnEdge]()
+        edges = list[RodOnEdge]()
         for body in self.bodies:
             pull = body.pull(shape.q, body.stress(shape))
             for weight, factor in self.weights:
@@ -270,7 +273,7 @@ class Discrete(ABC):
         return interpolate(self.plan.mesh, self.plan.elements, self.middles(displacement), points)
 
     def touched_without_kinks(self, shape: SheetShape) -> bool:
-        """Return whether obstacles touch its mid-surface as `tangent_planes` has it."""
+        """Return whether an obstacle touches the sheet's mid-surface of `tangent_planes`."""
         return any(one.bent and one.potential(shape) > 0.0 for one in self.contacts)
 
     def reactions(self, exerted: np.ndarray, at: float = 1.0) -> dict[str, np.ndarray]:
@@ -296,32 +299,33 @@ class Discrete(ABC):
     def exerted(self, q: np.ndarray, exerted: np.ndarray) -> HoldingForces:
         """Return force and couple on the nodes from g (N,)."""
 
-    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[OnEdge]:
+    def on_edges(self, q: np.ndarray, pull: np.ndarray) -> list[RodOnEdge]:
         """Return the forces of rods on their edges, from forces (k, a, 3) on their sides' vectors."""
-        edges, body = list[OnEdge](), self.rods
+        edges, body = list[RodOnEdge](), self.rods
         for edge_rod, on in zip(body.bound.rods, body.bound.by_rod(np.arange(len(pull))), strict=True):
             edge_pull = np.zeros_like(pull)
             edge_pull[on] = -pull[on]
             nodal, position = self.exerted(q, body.scatter(edge_pull))
             director = np.zeros((len(edge_rod.line), 3))
             director[edge_rod.places] = body.directors(q)[on]
-            edges.append(OnEdge(edge_rod, nodal[edge_rod.line], position[edge_rod.line], director))
+            edges.append(RodOnEdge(edge_rod, nodal[edge_rod.line], position[edge_rod.line], director))
         return edges
 
     @abstractmethod
     def holding(self, q: np.ndarray, exerted: np.ndarray, at: float) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Return places and forces of g (N,) that hold the sheet, pairs (…, 3), the nodes' first."""
+        """Return pairs of positions and forces (…, 3) that hold the sheet, from g (N,); the nodes' pair is
+        first."""
 
     # validity of a state
 
-    def inside_out(self, q: np.ndarray) -> str:
-        """Return a sentence on the element that has turned inside out, "" for none."""
+    def inverted_element(self, q: np.ndarray) -> str:
+        """Return a sentence on an inverted element, "" if there is none."""
         return ""
 
     @abstractmethod
     def stretch(self, shape: SheetShape) -> float:
-        """Return the measure of the strain that `beyond` takes."""
+        """Return the measure of strain that is the argument of `beyond`."""
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause where the law of strain does not hold at a stretch, else ""."""
+        """Return a clause if a stretch exceeds the range of the law of strain, else ""."""
         return "" if self.any_strain else outside_model(self.scene, stretch)

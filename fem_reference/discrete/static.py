@@ -39,13 +39,13 @@ class StaticState:
 @dataclass(frozen=True)
 class Forces:
     """Forces of a state: shape, stresses (k, s) of the rods, residual (N,). size: of the balancing forces
-    [N]; short: the step (N,) to the prescribed displacements."""
+    [N]; gap_step: the step (N,) to the prescribed displacements."""
 
     shape: SheetShape
     on_rods: OnRods
     residual: np.ndarray
     size: float
-    short: np.ndarray
+    gap_step: np.ndarray
 
 
 class Static(Creeping[StaticState, Forces]):
@@ -80,24 +80,24 @@ class Static(Creeping[StaticState, Forces]):
         of_items = sum(item.potential(shape) for item in sheet.items)
         return stored + of_items, stored + abs(of_items)
 
-    def dragged(self, state: StaticState, load_factor: float, drag: float) -> Static:
-        return Static(self.sheet.dragged(self.shape(state, load_factor), drag))
+    def creep_step(self, state: StaticState, load_factor: float, drag: float) -> Static:
+        return Static(self.sheet.creep_step(self.shape(state, load_factor), drag))
 
     def forces(self, state: StaticState, load_factor: float) -> Forces:
         sheet, shape = self.sheet, self.shape(state, load_factor)
         external = sheet.external(shape)
         residual = sheet.scatter(sheet.element.forces(shape.operator, shape.elastic))
         on_held = sheet.displacement(residual).ravel()[sheet.held]
-        size = sheet.measured(external, sheet.scale) + sheet.measured(on_held)
+        size = sheet.norm_of(external, sheet.scale) + sheet.norm_of(on_held)
         if sheet.natural is not None:  # often all that loads it
             pull = sheet.element.forces(shape.operator, sheet.element.stress(sheet.natural.at(load_factor)))
-            size += sheet.measured(sheet.scatter(pull), sheet.scale)
+            size += sheet.norm_of(sheet.scatter(pull), sheet.scale)
         residual -= external
         on_rods = tuple(body.stress(shape) for body in sheet.bodies)
         for body, stress in zip(sheet.bodies, on_rods, strict=True):
             residual += body.scatter(body.pull(shape.q, stress))
-            size += sheet.measured((body.driving(shape) / sheet.scale_of(body)).ravel())
-        return Forces(shape, on_rods, residual, size, sheet.short(shape))
+            size += sheet.norm_of((body.driving(shape) / sheet.scale_of(body)).ravel())
+        return Forces(shape, on_rods, residual, size, sheet.gap_step(shape))
 
     def imbalance(self, state: StaticState, forces: Forces) -> float:
         reduced = self.sheet.reduce(forces.shape, forces.residual / self.sheet.scale)
@@ -105,8 +105,8 @@ class Static(Creeping[StaticState, Forces]):
 
     def gap(self, state: StaticState, load_factor: float) -> float:
         """Return the largest distance from prescribed displacements over the sheet's size."""
-        step = self.sheet.short(self.shape(state, load_factor)) * self.sheet.scale
-        return float(np.abs(step).max() / self.sheet.lever)
+        step = self.sheet.gap_step(self.shape(state, load_factor)) * self.sheet.scale
+        return float(np.abs(step).max() / self.sheet.longer_side)
 
     def linearised(
         self, state: StaticState, forces: Forces, load_factor: float, mixed: bool = True
@@ -119,7 +119,7 @@ class Static(Creeping[StaticState, Forces]):
             residual = residual + sheet.scatter(sheet.element.forces(shape.operator, stress - shape.elastic))
             for body, extrapolated, current in zip(sheet.bodies, on_rods, forces.on_rods, strict=True):
                 residual += body.scatter(body.pull(shape.q, extrapolated - current))
-        moduli, move = sheet.moduli(shape, pressure), forces.short if forces.short.any() else None
+        moduli, move = sheet.moduli(shape, pressure), forces.gap_step if forces.gap_step.any() else None
         matrix, product = sheet.system(shape, moduli, stress, on_rods, residual, move=move)
         return matrix, -sheet.reduce(shape, forces.residual + product)
 
@@ -127,7 +127,7 @@ class Static(Creeping[StaticState, Forces]):
         self, state: StaticState, forces: Forces, load_factor: float, step: np.ndarray
     ) -> StaticState:
         sheet, shape = self.sheet, forces.shape
-        move = sheet.expand(shape, step) + forces.short
+        move = sheet.expand(shape, step) + forces.gap_step
         by = sheet.element.step(shape.operator, sheet.gather(move))
         rods = zip(sheet.bodies, forces.on_rods, strict=True)
         on_rods = tuple(body.extrapolated(shape, stress_before, move) for body, stress_before in rods)
@@ -147,4 +147,4 @@ class Static(Creeping[StaticState, Forces]):
 
     def length(self, start: StaticState, end: StaticState) -> float:
         moved = self.sheet.displacement(end.q) - self.sheet.displacement(start.q)
-        return float(np.abs(moved).max() / self.sheet.lever)
+        return float(np.abs(moved).max() / self.sheet.longer_side)

@@ -26,8 +26,8 @@ EYE = np.eye(3)
 
 
 def shares(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return shares (p, 18) of a along r, then s, in places at r, s (p,) of [−1, 1], and (p, 9) of nodes,
-    linear between them."""
+    """Return the weights at points r, s (p,) of [−1, 1]: (p, 18) of the corrections a along r, then s, and
+    (p, 9) of the nodes, linear between them."""
     away = np.stack([r, s])[..., None] - NODES.T[:, None]
     far = np.abs(away)
     hats, ends = np.maximum(1.0 - far, 0.0), np.array([-1.0, 0.0, 1.0])
@@ -46,7 +46,7 @@ def _at_nodes(vectors: np.ndarray) -> tuple[np.ndarray, ...]:
 
 
 def corrections(vectors: np.ndarray) -> np.ndarray:
-    """Return a (m, 18, 3) along r, then s."""
+    """Return the corrections a (m, 18, 3) of the nodes' tangents, along r, then s."""
     v, d, n, _ = _at_nodes(vectors)
     return np.asarray(-(v * d).sum(-1, keepdims=True) * n).reshape(-1, 18, 3)
 

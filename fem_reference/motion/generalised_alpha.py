@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.energies import SheetMotion, spent
+from fem_reference.discrete.energies import SheetMotion, dissipation_and_work
 from fem_reference.sheets import start
 from sheetbench.numerics.direct import DirectSolver, Factor
 from sheetbench.numerics.time.controller import Controller
@@ -97,7 +97,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
                 restart = self.begin(kink, model.on_supports(motion.q, kink), motion.v, branches)
                 motion, work = restart.state, restart.work
         after = self.advance(motion, at_most)
-        self._step = motion, spent(model, motion, after, 1.0 - self._rule.af), work
+        self._step = motion, dissipation_and_work(model, motion, after, 1.0 - self._rule.af), work
         return Advance(after, float(self._step[1][0]), work + float(self._step[1][1]))
 
     def at(self, times: np.ndarray, last: Advance[SheetMotion]) -> Sampled:
@@ -127,7 +127,7 @@ class ConstrainedAlpha(MotionMethod[SheetMotion]):
         work of jumps. branches: their step until then; at rest without one."""
         model = self._model
         basis = model.basis(q)
-        rate = model.rate_placed(q, v, time)
+        rate = model.constrained_rate(q, v, time)
         factor = DirectSolver().factor((basis.T @ model.mass @ basis).tocsr())
         rate = rate - basis @ factor.solve(basis.T @ (model.mass @ (rate - v)))
         a = model.centripetal(q, rate)

@@ -21,7 +21,7 @@ class ReferenceObserver:
         nothing = np.zeros(model.size)
         self._reactions = list(model.reactions(nothing))
         flat = model.shape(nothing, 0.0)
-        held = [*self._reactions, *model.held_by_items(flat)]
+        held = [*self._reactions, *model.item_support_forces(flat)]
         self.columns = columns_of(scene, held, model.wrenches(flat, nothing)[1])
 
     def rows(self, samples: Sampled) -> np.ndarray:
@@ -33,7 +33,7 @@ class ReferenceObserver:
             reactions = model.reactions(motion.exerted)
             forces = [reactions[name] for name in self._reactions]
             shape = model.shape(motion.q, motion.time, motion.v)
-            forces += [force.sum(axis=0) for _, force in model.held_by_items(shape).values()]
+            forces += [force.sum(axis=0) for _, force in model.item_support_forces(shape).values()]
             wrenches = model.wrenches(shape, motion.exerted, motion.a)[1]
             forces += [wrench.ravel() for wrench in wrenches.values()]
             rows.append(np.concatenate([[0.0, *kinds, 0.0, 0.0], probes.ravel(), *forces]))
@@ -45,13 +45,13 @@ class ReferenceObserver:
         """Return stretches of the first samples before one with an inverted element, and its fault."""
         stretches = np.empty(count)
         for i, motion in enumerate(samples.motions[:count]):
-            if inverted := self._model.inside_out(motion.q):
+            if inverted := self._model.inverted_element(motion.q):
                 return stretches[:i], Fault(Status.INVERTED, inverted)
             stretches[i] = self._model.shape(motion.q, motion.time).stretch
         return stretches, None
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause where the law of strain does not hold at a stretch, else ""."""
+        """Return a clause if a stretch exceeds the range of the law of strain, else ""."""
         return self._model.beyond(stretch)
 
     def fastest(self, samples: Sampled, i: int) -> str:

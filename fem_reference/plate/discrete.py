@@ -46,7 +46,7 @@ class DiscretePlate(DiscreteShell):
     linear: ClassVar[bool] = True
     creeps: ClassVar[bool] = False
     element: PlateElements
-    moved, centripetal, inside_out = Discrete.moved, Discrete.centripetal, Discrete.inside_out
+    moved, centripetal, inverted_element = Discrete.moved, Discrete.centripetal, Discrete.inverted_element
 
     def __init__(self, mesh: MeshQuad, scene: Scene, section: Section | None = None, moving: bool = False):
         super().__init__(mesh, scene, section, moving=moving)

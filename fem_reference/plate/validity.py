@@ -21,7 +21,7 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 from fem_reference.discrete.shape import SheetShape
 from fem_reference.plate.element import BENDING, MEMBRANE, PlateElements
 
-SLIGHT = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
+LEAST_FORCE = 1.0  # a² |N|/D, below which in-plane forces do not buckle a sheet
 
 
 def nonlinearity(elements: PlateElements, change: np.ndarray, strain: np.ndarray) -> float:
@@ -43,7 +43,7 @@ def buckling_load(shape: SheetShape) -> float | None:
     xx, yy, xy = force.T
     pressing = -(0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy)).min()
     rigidity = (elements.stiffness[:, BENDING.start, BENDING.start] / elements.areas.ravel()).max()
-    if sheet.bodies or pressing * max(sheet.scene.sheet.lengths) ** 2 < SLIGHT * rigidity:
+    if sheet.bodies or pressing * max(sheet.scene.sheet.lengths) ** 2 < LEAST_FORCE * rigidity:
         return None
     tensor = force[:, [0, 2, 2, 1]].reshape(*elements.areas.shape, 2, 2) * elements.areas[..., None, None]
     on_w = np.einsum("mqai,mqab,mqbj->mij", elements.gradient, tensor, elements.gradient)

@@ -108,7 +108,7 @@ class DiscreteShell(DiscreteElements):
             raise BadInput(f"law = '{law}': a given section needs the law '{STRAIN_LAW}'")
         return HyperelasticElement.of(nodes, scene.material, scene.sheet.thickness, LAWS[law]), None
 
-    def again(self) -> Callable[[], Self] | None:
+    def rebuild(self) -> Callable[[], Self] | None:
         law = () if self.linear else (self.law,)
         return None if self.section else partial(type(self), self.plan.mesh, self.scene, None, *law)
 
@@ -119,7 +119,8 @@ class DiscreteShell(DiscreteElements):
         return state and state.made(make)
 
     def natural_form(self) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
-        """Return sites (m, p, 2) [m] of e0 and k0 (m, p, 2, 2), and a function that makes strains of both."""
+        """Return the points (m, p, 2) [m] at which e0 and k0 (m, p, 2, 2) are evaluated, and a function from
+        both to the elements' natural strains."""
         return AT_SITES @ self.plan.corners, partial(natural_strains, self.plan.corners)
 
     def with_scene(self, scene: Scene) -> Self:
@@ -182,7 +183,7 @@ class DiscreteShell(DiscreteElements):
         """Return the prescribed change (2, n, 3) of positions [m] and directors."""
         return self.supports.change(*self.instant(at))
 
-    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+    def constrained_rate(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         prescribed = np.zeros(self._held.shape)
         prescribed[: 2 * self.nodes] = self.supports.rate(time).reshape(-1, 3)
         rate = np.where(self._held, prescribed, v.reshape(self._held.shape))
@@ -190,7 +191,7 @@ class DiscreteShell(DiscreteElements):
         turns -= np.einsum("nc,nc->n", turns, directors)[:, None] * directors
         return rate.ravel()
 
-    def short(self, shape: SheetShape) -> np.ndarray:
+    def gap_step(self, shape: SheetShape) -> np.ndarray:
         free = np.concatenate([np.zeros((self.nodes, 3)), to_unit(self.directors(shape.q))])
         target = np.zeros(self._held.shape)  # rods stand still
         target[: 2 * self.nodes] = self.change(shape.at).reshape(-1, 3)
@@ -273,7 +274,7 @@ class DiscreteShell(DiscreteElements):
 
     # results and validity
 
-    def inside_out(self, q: np.ndarray) -> str:
+    def inverted_element(self, q: np.ndarray) -> str:
         return inverted(self.element, self.gather(q))
 
     def stretch(self, shape: SheetShape) -> float:

@@ -18,7 +18,7 @@ stretched  In an element of sides b ≥ l the membrane shear's assumed strains d
 
 import numpy as np
 
-from fem_reference.discrete.answer import inspected, shape_of
+from fem_reference.discrete.answer import last_fault, shape_of
 from fem_reference.discrete.static import Forces, StaticState
 from fem_reference.shell.element import BENDING, MEMBRANE, Element
 from fem_reference.surface.biquadratic import AT_GAUSS
@@ -35,7 +35,7 @@ def stretched(path: Path[StaticState, Forces]) -> Fault | None:
     """Return the fault that rejects a step of a path; stretched elements count only if unstable."""
     shape = shape_of(path)
     element, thickness = shape.sheet.element, shape.sheet.scene.sheet.thickness
-    fault = inspected(path)
+    fault = last_fault(path)
     if fault is not None or stretch(element, shape.strain, thickness) <= STRETCH_LIMIT:
         return fault
     return STRETCHED if stability(path)[0] is not Status.CONVERGED else None

@@ -132,11 +132,11 @@ class DiscreteSolid(DiscreteElements):
             self._share, self._kept_frames = share, (bases, of_all)
         return self._kept_frames
 
-    def rate_placed(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
+    def constrained_rate(self, q: np.ndarray, v: np.ndarray, time: float) -> np.ndarray:
         rate = self.column_supports.spread(self.supports.rate(time))
         return v + self._to_supports(self.frame(q, time), v, rate)
 
-    def short(self, shape: SheetShape) -> np.ndarray:
+    def gap_step(self, shape: SheetShape) -> np.ndarray:
         target = self.column_supports.spread(self.supports.change(*self.instant(shape.at)))
         return self._to_supports(shape.frame, shape.q, target)
 
@@ -215,7 +215,7 @@ class DiscreteSolid(DiscreteElements):
 
     # results and validity
 
-    def inside_out(self, q: np.ndarray) -> str:
+    def inverted_element(self, q: np.ndarray) -> str:
         ratio = self.element.volume_ratio(self.gather(q))
         return "a brick has turned inside out: use more elements" if np.any(ratio <= 0.0) else ""
 

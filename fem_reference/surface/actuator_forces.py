@@ -18,9 +18,9 @@ from fem_reference.surface.supports import PrescribedEdge
 from sheetbench.scenes import Scene
 
 
-class OnEdge(NamedTuple):
-    """Rod with force and couple (p, 6) [N, N·m] on its edge's nodes, at φ (p, 3) [m] with directors d (p,
-    3)."""
+class RodOnEdge(NamedTuple):
+    """Force and couple (p, 6) [N, N·m] of a rod on its edge's nodes, with their positions φ (p, 3) [m] and
+    directors d (p, 3)."""
 
     rod: Rod
     nodal: np.ndarray
@@ -36,7 +36,7 @@ class HoldingForces(NamedTuple):
 
 
 def exerted(
-    scene: Scene, edges: Iterable[OnEdge], moved: dict[str, PrescribedEdge], held: HoldingForces
+    scene: Scene, edges: Iterable[RodOnEdge], moved: dict[str, PrescribedEdge], held: HoldingForces
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Return each actuator's wrench on the sheet, and the rods' line force (n, 3) [N/m], zero off their
     edges. A wrench is the force and moment (segments, 6) [N, N·m] of its segments, by the actuator's name."""

@@ -1,4 +1,4 @@
-"""Total load on a surface, from the scene and the shape alone, to check a model's solution.
+"""Balance of a surface model: the total load, computed from the scene and the shape alone, and the reactions.
 
     force     dead loads  given by the scene (`dead_force`)
               pressure    ½ p ∮ φ × dφ
@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem_reference.surface.actuator_forces import OnEdge
+from fem_reference.surface.actuator_forces import RodOnEdge
 from fem_reference.surface.biquadratic import AT_GAUSS, THREE, THREE_WEIGHTS, areas, side_shape
 from fem_reference.surface.loads import Line
 from fem_reference.surface.location import interpolate
@@ -66,8 +66,9 @@ class Surface:
         return THREE_WEIGHTS * np.linalg.norm(_SLOPE @ self.plan.nodes[sides], axis=-1)
 
 
-def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np.ndarray, np.ndarray]:
-    """Return force [N] and moment [N·m] (3,) of the whole load, the weight of chains on edges included."""
+def applied(scene: Scene, surface: Surface, edges: Sequence[RodOnEdge]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the total force [N] and moment [N·m] (3,) of all loads and weights, including chains on
+    edges."""
     force, moment = _dead_force(scene, surface), np.zeros(3)
     if scene.gravity is not None:
         parts = [surface.first_moment(scene)]
@@ -91,18 +92,18 @@ def applied(scene: Scene, surface: Surface, edges: Sequence[OnEdge]) -> tuple[np
     return force, moment
 
 
-def left_over(
+def load_balance(
     scene: Scene,
     surface: Surface,
-    edges: Sequence[OnEdge],
+    edges: Sequence[RodOnEdge],
     reactions: Mapping[str, np.ndarray],
     held: Sequence[tuple[np.ndarray, np.ndarray]],
     size: float,
     allowed: float,
     share: float,
 ) -> Balance:
-    """Return the balance of a model under a share of the load. reactions: of its supports, by name; held:
-    places and forces with which it is held, pairs (…, 3); size and allowed: fields of `Balance`."""
+    """Return the residual force and moment of a model under a share of the load. reactions: of its supports,
+    by name; held: pairs of positions and holding forces (…, 3); size and allowed: fields of `Balance`."""
     force, moment = applied(scene, surface, edges)
     longest = float(np.ptp(surface.plan.nodes, axis=0).max())
     turning = [np.cross(places, forces).reshape(-1, 3).sum(axis=0) for places, forces in held]
@@ -125,8 +126,9 @@ def _dead_force(scene: Scene, surface: Surface) -> np.ndarray:
     return dead_force(scene, mass, lengths)
 
 
-def _of_chains(edge: OnEdge, surface: Surface, thickness: float) -> np.ndarray:
-    """Return ∫ ρ_l (φ + c d) dL [kg m] of the chains of a rod, by the rod's own positions and directors."""
+def _of_chains(edge: RodOnEdge, surface: Surface, thickness: float) -> np.ndarray:
+    """Return ∫ ρ_l (φ + c d) dL [kg m], the first mass moment of a rod's chains, from its own positions and
+    directors."""
     values = np.concatenate([edge.position, edge.director], axis=1)[edge.rod.places]
     line = np.einsum("kg,gi,kic->c", surface.lengths(edge.rod.nodes), _VALUE, values)
     chains = edge.rod.chains.values()
@@ -146,7 +148,8 @@ def _edge_moment(load: EdgeLoad, surface: Surface) -> np.ndarray:
 
 
 def _first_moment(payload: Mass, surface: Surface) -> np.ndarray:
-    """Return m φ [kg m] of a payload at a point, or with the mean φ over its part of the sheet."""
+    """Return the first mass moment m φ [kg m] of a payload, with φ at its point or the mean φ of its part of
+    the sheet."""
     if payload.at is not None:
         return payload.mass * surface.at(payload.at)
     weights, at = _area(payload.where, surface)

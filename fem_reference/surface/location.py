@@ -13,7 +13,7 @@ from sheetbench.errors import BadInput
 from sheetbench.numerics.cache import cached
 
 SLACK = 1e-9  # distance outside, in element sizes, that still counts as on the edge: rounding only
-BULGE = 0.05  # that distance for elements with curved sides, which follow a shape approximately
+CURVED_SLACK = 0.05  # that distance for elements with curved sides, which follow a shape approximately
 _PAIRS_AT_ONCE = 4_000_000
 _NEWTON = 8
 
@@ -36,7 +36,7 @@ def locate(mesh: MeshQuad, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         outside /= (high - low).max(axis=0)[candidate]
         order = np.lexsort((candidate, np.maximum(outside, SLACK), point))
         first = order[np.unique(point[order], return_index=True)[1]]
-        first = first[outside[first] <= (SLACK if nodes.shape[1] == 4 else BULGE)]
+        first = first[outside[first] <= (SLACK if nodes.shape[1] == 4 else CURVED_SLACK)]
         element[start + point[first]] = candidate[first]
         local[:, start + point[first]] = xi[:, first]
     if np.any(element < 0):

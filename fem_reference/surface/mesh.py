@@ -27,7 +27,7 @@ Elements = int | tuple[int, int]
 
 # A nine-node element drawn as four bilinear quadrilaterals; local nodes: 4 corners, 4 mid-sides, centre.
 TOUCHING = 0.05  # largest distance of a shape that touches a side, over the side's length
-BESIDE = 0.03  # share of a round shape's area that straight sides, 16 or more around, miss
+MISSED_AREA = 0.03  # share of a round shape's area that straight sides, 16 or more around, miss
 _QUARTERS = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
 
 
@@ -180,7 +180,7 @@ def _require_borders(scene: Scene, mesh: MeshQuad) -> None:
             length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=0).sum()
             parts.append((load.where, length, edge_length(scene, load.edge, load.where)))
     for shape, covered, size in parts:
-        if abs(covered - size) > BESIDE * size:
+        if abs(covered - size) > MISSED_AREA * size:
             raise BadInput(
                 f"sheet.mesh: its sides do not lie on the border of the {shape.in_words()}: elements with "
                 f"their middles there are {100.0 * covered / size:.3g} % of the part; give it its own mesh"

@@ -38,11 +38,11 @@ if TYPE_CHECKING:
     from shapely import LineString
     from shapely.geometry.base import BaseGeometry
 
-USUAL = 4.0  # sizes across a sheet, above which borders are divided in proportion
+PROPORTIONAL_ABOVE = 4.0  # sizes across a sheet, above which borders are divided in proportion
 SKEW = np.pi / 4.0  # largest difference from right angles in a quadrilateral of two triangles
 SKEWEST = np.pi / 3.0  # largest difference from right angles beside rows along the rim
 FLAT = 1e-6  # area of a triangle between points of a straight border, over its longest side squared
-SWIRL = 1e-7 * np.array([[1.0, np.sqrt(2.0)], [-np.sqrt(2.0), 1.0]])  # so that no four points lie on a circle
+SHIFT = 1e-7 * np.array([[1.0, np.sqrt(2.0)], [-np.sqrt(2.0), 1.0]])  # so that no four points lie on a circle
 LAYERS = (0.12, 0.4)  # cuts of the row along the rim, as shares of its depth
 HALVINGS = 2  # of the cuts, where elements beside the row would be too skew
 TIP = 0.5  # least 2 (1 − cos of the angle) at a rim's vertex
@@ -67,7 +67,7 @@ def quadrilaterals(
     region, inner = plan.part
     borders = plan.turned(borders_between_corners(region, inner))
     across = np.min(np.ptp(np.reshape(plan.region.bounds, (2, 2)), axis=0))
-    size = SizeField.of(region, borders, min(1.0, USUAL / across))
+    size = SizeField.of(region, borders, min(1.0, PROPORTIONAL_ABOVE / across))
     size = SizeField(plan.images(size.places).reshape(-1, 2), np.repeat(size.sizes, len(plan.turns)))
     cut, mirror = plan.cut(borders)
     points, sides = divided_borders(borders, size, mirror >= 0)
@@ -100,8 +100,8 @@ def _triangles(
 
     for _ in range(ROUNDS):
         vertices = np.concatenate([points, inside])
-        swirl = np.sum(vertices**2, axis=1, keepdims=True) * (vertices @ SWIRL)
-        triangles = Delaunay(vertices + swirl).simplices
+        shift = np.sum(vertices**2, axis=1, keepdims=True) * (vertices @ SHIFT)
+        triangles = Delaunay(vertices + shift).simplices
         edges = _keys(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), len(vertices))
         missing = ~np.isin(_keys(sides.ends, len(vertices)), edges)
         if not missing.any():

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 DIGITS = 9  # of rounding, as in `mesh_points.GRID`
-FLIPS = [np.diag([x, y]) for x in (1.0, -1.0) for y in (1.0, -1.0)]
-TURNS = [flip @ swap for swap in (np.eye(2), np.eye(2)[::-1]) for flip in FLIPS]
+REFLECTIONS = [np.diag([x, y]) for x in (1.0, -1.0) for y in (1.0, -1.0)]
+SYMMETRIES = [flip @ swap for swap in (np.eye(2), np.eye(2)[::-1]) for flip in REFLECTIONS]
 FIRST = np.array([np.cos(1.0), np.sin(1.0)])  # an arbitrary angle
 DIAGONALS = np.sqrt(0.5) * np.array([[1.0, -1.0], [1.0, 1.0]])  # normals of mirrors, towards the meshed part
 
@@ -147,9 +147,9 @@ def centred(region: BaseGeometry, inner: BaseGeometry) -> CentredPlan:
     centre = np.mean(np.reshape(region.bounds, (2, 2)), axis=0)
     parts = shapely.transform([region.boundary, inner], lambda at: np.round(at - centre, DIGITS))
     rims, lines = map(straight_parts, parts)
-    keys = [[_ordered(part, turn).ravel().tolist() for part in (rims, lines)] for turn in TURNS]
-    turn = TURNS[keys.index(max(keys))]
-    images = [other @ turn.T for other, key in zip(TURNS, keys, strict=True) if key == max(keys)]
+    keys = [[_ordered(part, turn).ravel().tolist() for part in (rims, lines)] for turn in SYMMETRIES]
+    turn = SYMMETRIES[keys.index(max(keys))]
+    images = [other @ turn.T for other, key in zip(SYMMETRIES, keys, strict=True) if key == max(keys)]
     axes, diagonals = (
         [normal for normal in normals if any(np.array_equal(reflection(normal), image) for image in images)]
         for normals in (np.eye(2), DIAGONALS)

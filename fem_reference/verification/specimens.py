@@ -7,7 +7,7 @@ import numpy as np
 
 from fem_reference import solve
 from fem_reference.discrete.elements import DiscreteElements
-from fem_reference.discrete.items import Dead
+from fem_reference.discrete.items import DeadLoad
 from fem_reference.discrete.static import Static
 from sheetbench.answers.solution import Solution, Status
 from sheetbench.numerics.direct import DirectSolver
@@ -48,7 +48,7 @@ def valid(solution: Solution) -> float:
 
 def linear_step(sheet: DiscreteElements, force: np.ndarray) -> np.ndarray:
     """Return q (N,) of the first linear step from the flat sheet under an additional force (N,)."""
-    sheet.items.append(Dead(force, None))
+    sheet.items.append(DeadLoad(force, None))
     static = Static(sheet)
     rest = static.rest()
     forces = static.forces(rest, 1.0)

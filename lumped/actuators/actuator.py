@@ -1,4 +1,4 @@
-"""Commands of actuators, forces between them and the sheet, and the simplest actuator, an edge's motion.
+"""Commands of actuators, forces between actuators and the sheet, and the prescribed rigid motion of an edge.
 
 A prescribed motion sets the displacement of its masses; the force that holds them follows from the sheet. A
 chain has a state of its own: rows of displacement, (rows, 3) [m], to which masses of the edge are bound; the
@@ -26,7 +26,7 @@ class Drive(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Acting:
+class InterfaceForces:
     """Forces between an actuator and the sheet. positions: (m, 3) [m] of the actuator's masses; on_masses:
     (m, 3) [N] force that holds them; on_rows: (rows, 3) [N] force that holds the actuator's rows, the bound
     masses' force included; y: (rows, 3) [m] displacement of the rows."""
@@ -58,16 +58,16 @@ class RigidMotion:
         """Return the velocity (m, 3) [m/s] of the masses from a time [s] on."""
         return self._moved.velocity(self._plan, self._height, time)
 
-    def reactions(self, acting: Acting) -> dict[str, np.ndarray]:
-        """Return the force (3,) [N] that holds the motion, by the motion's name among reactions."""
-        return {self._held_as: (self._part * acting.on_masses).sum(axis=0)}
+    def reactions(self, interface: InterfaceForces) -> dict[str, np.ndarray]:
+        """Return the force (3,) [N] that imposes the motion, by its name among the reactions."""
+        return {self._held_as: (self._part * interface.on_masses).sum(axis=0)}
 
-    def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
-        """Return the moment (3,) [N·m] about the origin of the forces that hold the motion."""
-        return np.cross(acting.positions, self._part * acting.on_masses).sum(axis=0)
+    def held_moment(self, interface: InterfaceForces, drive: Drive) -> np.ndarray:
+        """Return the moment (3,) [N·m] about the origin of the forces that impose the motion."""
+        return np.cross(interface.positions, self._part * interface.on_masses).sum(axis=0)
 
-    def wrenches(self, acting: Acting) -> np.ndarray:
+    def wrenches(self, interface: InterfaceForces) -> np.ndarray:
         """Return force and moment about the edge's current middle, (1, 1, 6) [N, N·m]."""
-        force = self._part * acting.on_masses
-        moment = np.cross(acting.positions - acting.positions.mean(axis=0), force).sum(axis=0)
+        force = self._part * interface.on_masses
+        moment = np.cross(interface.positions - interface.positions.mean(axis=0), force).sum(axis=0)
         return np.concatenate([force.sum(axis=0), moment]).reshape(1, 1, 6)

@@ -30,9 +30,9 @@ NEIGHBOURS = 2  # segments on either side of a joint that its slope is taken fro
 def bind(
     frames: Frames, rows: int, along: np.ndarray, height: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the binding of masses at arc length and height over the axis (m,) [m] to rows, (m, rows), the
-    share of each mass in the segments, (segments, m), and the arms (m, 3) [m] of the masses' forces about a
-    base's frame."""
+    """Return the linear maps of masses bound to a chain: binding (m, rows) from its rows to the masses'
+    displacement, shares (segments, m) of each mass among the segments, and arms (m, 3) [m] of the masses'
+    forces about a base's frame; along, height: arc length and height over the axis (m,) [m]."""
     count, base = frames.segments, frames.base_joint
     binding, share = np.zeros((len(along), rows)), np.zeros((count, len(along)))
     ground = {} if base is None else {base: count}

@@ -22,7 +22,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from lumped.actuators import joints
-from lumped.actuators.actuator import Acting, Drive
+from lumped.actuators.actuator import Drive, InterfaceForces
 from lumped.actuators.binding import bind, mass_matrix
 from lumped.actuators.division import mean_curvatures, parts_of_a_segment
 from lumped.actuators.frames import Frames
@@ -151,24 +151,24 @@ class BoundChain:
         out[:count, :, :count, :] = damped.reshape(count, 3, count, 3)
         return out
 
-    def reactions(self, acting: Acting) -> dict[str, np.ndarray]:
+    def reactions(self, interface: InterfaceForces) -> dict[str, np.ndarray]:
         """Return the force (3,) [N] on the point that the base holds, by its name among reactions."""
         at = self.frames.base_joint
-        return {} if at is None else {self._chains[0].held_as: acting.on_rows[at]}
+        return {} if at is None else {self._chains[0].held_as: interface.on_rows[at]}
 
-    def held_moment(self, acting: Acting, drive: Drive) -> np.ndarray:
+    def held_moment(self, interface: InterfaceForces, drive: Drive) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin on the held points and directors and on a base's
         frame."""
-        at, count = self.frames.at(acting.y), self.frames.coordinates
-        whole = np.where(self.free, 0.0, acting.on_rows)[:count]
-        moment = np.cross(self.frames.rest + acting.y[:count], whole).sum(axis=0)
-        on_base = np.cross(self._arms, acting.on_masses).sum(axis=0)
+        at, count = self.frames.at(interface.y), self.frames.coordinates
+        whole = np.where(self.free, 0.0, interface.on_rows)[:count]
+        moment = np.cross(self.frames.rest + interface.y[:count], whole).sum(axis=0)
+        on_base = np.cross(self._arms, interface.on_masses).sum(axis=0)
         _, by_measure, _ = joints.derivatives(at.measures, *self._joint_springs(drive)[0])
-        return moment + on_base + self.frames.ground_couple(at, self._weights(acting.y, by_measure))
+        return moment + on_base + self.frames.ground_couple(at, self._weights(interface.y, by_measure))
 
     def place_corner(self, end: int, layers: np.ndarray, displacement: np.ndarray) -> np.ndarray:
-        """Return the displacement (rows, 3) [m] that follows a corner's layers, at the heights (l,) [m] and
-        displaced by (l, 3) [m]."""
+        """Return the chain's displacement (rows, 3) [m] at an end held by a corner whose layers, at heights
+        (l,) [m], are displaced by (l, 3) [m]."""
         frames, spread = self.frames, layers - layers.mean()
         tilt = spread @ displacement / (spread @ spread)
         y = np.zeros((self.rows, 3))
@@ -182,17 +182,17 @@ class BoundChain:
         point = self.frames.end_point(end)
         return np.where(self.free[point], 0.0, on_rows[point])
 
-    def wrenches(self, acting: Acting) -> np.ndarray:
+    def wrenches(self, interface: InterfaceForces) -> np.ndarray:
         """Return force and moment (names, segments, 6) [N, N·m] on the sheet about the middle of each
         segment's axis; chains of a pair share them evenly."""
-        frames, exerted = self.frames, acting.on_rows
-        position = frames.rest + acting.y[: frames.coordinates]
+        frames, exerted = self.frames, interface.on_rows
+        position = frames.rest + interface.y[: frames.coordinates]
         first = self._parts * np.arange(frames.segments // self._parts)
         middle = 0.5 * (position[first + self._parts // 2] + position[first + (self._parts + 1) // 2])
-        arm = acting.positions[None, :, :] - middle[:, None, :]
+        arm = interface.positions[None, :, :] - middle[:, None, :]
         share = np.add.reduceat(self.share, first)
-        force = share @ acting.on_masses
-        moment = np.einsum("sm,smq->sq", share, np.cross(arm, acting.on_masses[None, :, :]))
+        force = share @ interface.on_masses
+        moment = np.einsum("sm,smq->sq", share, np.cross(arm, interface.on_masses[None, :, :]))
         total = np.concatenate([force, moment], axis=1)
         for end in frames.corners:  # on a free row only another chain's part of the corner acts
             segment, row = end * (len(first) - 1), frames.corner_row[end]
@@ -203,8 +203,8 @@ class BoundChain:
         return np.tile(total / len(self.names), (len(self.names), 1, 1))
 
     def _joint_springs(self, drive: Drive) -> tuple[tuple[np.ndarray, np.ndarray], float]:
-        """Return stiffness (j,) [N·m/rad] and rest angles (j, 2) of all chains as one, and the energy [J]
-        that is stored because their rest angles differ."""
+        """Return the stiffness (j,) [N·m/rad] and rest angles (j, 2) of the chain equivalent to all chains
+        together, and the energy [J] stored because their rest angles differ."""
         frames, stiffness = self.frames, self._stiffness.sum(axis=0)
         curvature = np.array([pieces @ values.at(drive.time) for pieces, values in self._commands])
         natural = drive.load_factor * curvature[:, frames.command] * frames.length * frames.share

@@ -80,9 +80,9 @@ def shared_corners(scene: Scene, lattice: Lattice, taken: np.ndarray) -> list[Sh
     return corners
 
 
-def redundant(gradient: np.ndarray, rank: np.ndarray) -> list[int]:
-    """Return the numbers of constraints whose gradient (c, n) by the free rows is a combination of gradients
-    before it in order of rank (c,); constraints of rank 0 are independent."""
+def redundant_constraints(gradient: np.ndarray, rank: np.ndarray) -> list[int]:
+    """Return the numbers of redundant constraints: their gradients (c, n) by the free rows are linear
+    combinations of earlier gradients in the order of rank (c,). Constraints of rank 0 are independent."""
     basis, dependent = np.linalg.qr(gradient[rank == 0].T)[0], []
     for number in np.argsort(rank, kind="stable")[np.sum(rank == 0) :].tolist():
         remainder = gradient[number] - basis @ (basis.T @ gradient[number])

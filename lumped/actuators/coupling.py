@@ -1,4 +1,4 @@
-"""All actuators of a scene, bound to a lattice: in the displacement their rows follow the masses' rows.
+"""All actuators of a scene, bound to a lattice; their rows of the displacement come after the masses' rows.
 
 A mass of an edge moved rigidly follows the motion, whatever else acts on it: scenes with supports that
 contradict the motion are refused; two motions that share a corner share its force. Any other mass that a
@@ -13,9 +13,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from lumped.actuators.actuator import Acting, Drive, RigidMotion
+from lumped.actuators.actuator import Drive, InterfaceForces, RigidMotion
 from lumped.actuators.chain import BoundChain
-from lumped.actuators.corners import SharedCorner, Tie, adjacent_base, held_ends, redundant, shared_corners
+from lumped.actuators.corners import (
+    SharedCorner,
+    Tie,
+    adjacent_base,
+    held_ends,
+    redundant_constraints,
+    shared_corners,
+)
 from lumped.coverage import held_columns, reached_parts
 from lumped.lattice import Lattice
 from sheetbench.scenes import EDGES, Scene
@@ -24,8 +31,8 @@ NO_ROWS = np.empty((0, 3))
 
 
 class Coupling:
-    """The actuators with the place of each one's rows; arrays of `size` rows contain the masses, then the
-    actuators' rows.
+    """The actuators of a scene on a lattice. Arrays have `size` rows, first the masses', then each
+    actuator's.
 
     bodies: actuators that have rows, in the order of the rows; moved: (masses,) bool, masses of edges moved
     rigidly; algebraic: (size, 3) bool, components that are multipliers; free: (rows, 3) bool, components of
@@ -59,12 +66,14 @@ class Coupling:
         self.free = free[self.masses :]
         if self.ties:
             rank = np.concatenate([chain.frames.rank for chain in self.bodies])
-            left_out = tuple(np.argwhere(self.algebraic)[redundant(self._free_gradient(), rank)].T)
+            left_out = tuple(
+                np.argwhere(self.algebraic)[redundant_constraints(self._free_gradient(), rank)].T
+            )
             self.algebraic[left_out] = free[left_out] = False
         self.multipliers = int(self.algebraic.sum())
 
     def _free_gradient(self) -> np.ndarray:
-        """Return the constraints' gradient at rest by the rows that can move and are not tied to others."""
+        """Return the constraints' gradient at rest by the free rows, with tied rows eliminated."""
         gradient = self.constraint_gradient(np.zeros((self.size, 3))) * self.free
         for tie in self.ties:
             rows, others = tie.rows - self.masses, tie.others - self.masses
@@ -73,13 +82,14 @@ class Coupling:
         return gradient.reshape(len(gradient), -1)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the rows that act on each other, as ordered pairs of numbers after the masses."""
+        """Return the ordered pairs of actuators' rows that are coupled, by row numbers."""
         by_body = [np.argwhere(body.pairs) + body.place.start for body in self.bodies]
         rows, columns = np.concatenate([np.empty((0, 2), int), *by_body]).T
         return rows, columns
 
     def carried(self) -> np.ndarray:
-        """Return the forces (size,) [N] on rows whose rounding the residual cannot fall below."""
+        """Return the magnitudes (size,) [N] of the forces in each row's sum, whose rounding limits the
+        residual."""
         return np.concatenate([np.zeros(self.masses), *(np.full(a.rows, a.carried) for a in self.bodies)])
 
     def weight(self, acceleration: np.ndarray) -> np.ndarray:
@@ -87,8 +97,8 @@ class Coupling:
         return np.concatenate([np.empty((0, 3)), *(a.weight(acceleration) for a in self.bodies)])
 
     def axes(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Return the rows (p,) of the points where segments end and the points' places at rest (p, 3) [m], by
-        edge with chains; several chains on an edge have the mean of their axes."""
+        """Return, for every edge with chains, the rows (p,) of the segments' end points and their positions
+        at rest (p, 3) [m]; several chains on an edge have the mean of their axes."""
         return {body.edge: (body.place.start + np.arange(len(body.axis)), body.axis) for body in self.bodies}
 
     def corners(self) -> list[tuple[BoundChain, int, np.ndarray]]:
@@ -96,9 +106,9 @@ class Coupling:
         ends = [(body, end) for body in self.bodies for end in body.corners]
         return [(body, end, self._layers[body.edge][-end]) for body, end in ends]
 
-    def follow(self, u: np.ndarray) -> None:
-        """Set, in a displacement u (size, 3) [m], chains' ends and the masses bound to them by their corners'
-        masses."""
+    def apply_held_corners(self, u: np.ndarray) -> None:
+        """Set chains' ends, and the masses bound to them, in a displacement u (size, 3) [m] to match the
+        masses of held corners."""
         for chain, end, column in self.corners():
             u[chain.place] += chain.place_corner(end, self._positions[column, 2], u[column])
             u[chain.masses] = chain.binding @ u[chain.place]
@@ -183,8 +193,8 @@ class Coupling:
         """Return the force (3,) [N] of every prescribed motion and held base, by its name among a solution's
         reactions; exerted: (size, 3) [N] that holds masses and rows."""
         forces: dict[str, np.ndarray] = {}
-        for actuator, acting in self._acting(np.zeros_like(exerted), exerted):
-            forces |= actuator.reactions(acting)
+        for actuator, interface in self._interfaces(np.zeros_like(exerted), exerted):
+            forces |= actuator.reactions(interface)
         for body, end, base in self._held_by:
             forces[base] = forces[base] + body.corner_force(end, self.on_rows(body, exerted))
         return forces
@@ -196,7 +206,7 @@ class Coupling:
     def held_moment(self, u: np.ndarray, exerted: np.ndarray, drive: Drive) -> np.ndarray:
         """Return the moment (3,) [N·m] about the origin of the forces that hold the actuators, corners of
         chains included; exerted: (size, 3) [N] that holds masses and rows."""
-        moments = (actuator.held_moment(acting, drive) for actuator, acting in self._acting(u, exerted))
+        moments = (body.held_moment(interface, drive) for body, interface in self._interfaces(u, exerted))
         return sum(moments, np.zeros(3))
 
     def moment(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
@@ -212,18 +222,18 @@ class Coupling:
         """Return force and moment of each segment on the sheet, (segments, 6) [N, N·m] by actuator; exerted:
         (size, 3) [N] that holds masses and rows."""
         wrenches: dict[str, np.ndarray] = {}
-        for actuator, acting in self._acting(u, exerted):
-            wrenches.update(zip(actuator.names, actuator.wrenches(acting), strict=True))
+        for actuator, interface in self._interfaces(u, exerted):
+            wrenches.update(zip(actuator.names, actuator.wrenches(interface), strict=True))
         return wrenches
 
-    def _acting(
+    def _interfaces(
         self, u: np.ndarray, exerted: np.ndarray
-    ) -> Iterator[tuple[BoundChain | RigidMotion, Acting]]:
+    ) -> Iterator[tuple[BoundChain | RigidMotion, InterfaceForces]]:
         for actuator in self._all:
             masses, rows = actuator.masses, (NO_ROWS, NO_ROWS)
             if isinstance(actuator, BoundChain):
                 rows = self.on_rows(actuator, exerted), u[actuator.place]
-            yield actuator, Acting(self._positions[masses] + u[masses], exerted[masses], *rows)
+            yield actuator, InterfaceForces(self._positions[masses] + u[masses], exerted[masses], *rows)
 
 
 def _motions(scene: Scene, lattice: Lattice) -> tuple[RigidMotion, ...]:

@@ -18,14 +18,14 @@ MOST_PARTS = 24  # 0.05 % off where a strip is turned by more than its length
 
 
 def parts_of_a_segment(chain: Chain, cells: int) -> int:
-    """Return the number of parts of each segment along an edge of so many cells; a chain has two parts at
-    least, or it could not bend, and with a base in the middle an even number, for a joint to be there."""
+    """Return the number of parts into which each segment is divided on an edge with `cells` cells. A chain
+    needs at least two parts to bend, and with a base in the middle an even number for a joint there."""
     parts = -(-max(2, min(cells, MOST_PARTS)) // chain.segments)
     return parts + parts * chain.segments % 2 * (chain.base == "middle")
 
 
 def refining_cells(chain: Chain, cells: int, ratio: float) -> int:
-    """Return the smallest number of cells along an edge that divide a chain more finely.
+    """Return the smallest number of cells along an edge for which a chain is divided more finely.
 
     Parameters
     ----------

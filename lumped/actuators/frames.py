@@ -36,9 +36,9 @@ T, N, B = range(3)
 
 
 class Measured(NamedTuple):
-    """Quantities at a displacement. vectors: (v, 3) t, n, b of the segments and of the ground, then every
-    n_c; residuals: (c,) of the constraints; measures: (j, 3) of the joints; slopes: (k, v, 3) derivatives of
-    the quantities by the vectors."""
+    """Constraints and joint measures at a displacement. vectors: (v, 3) t, n, b of the segments and of the
+    ground, then every n_c; residuals: (c,) of the constraints; measures: (j, 3) of the joints; slopes: (k, v,
+    3) derivatives of the quantities by the vectors."""
 
     vectors: np.ndarray
     residuals: np.ndarray
@@ -56,7 +56,8 @@ class Frames:
     base_joint: the joint or end (0 to segments) at which a base is a frame that joints join, None without
     one. joints: frame before, frame after and length in ds of every joint in order, the ground's frame being
     `segments`. quantities: the constraints (first `constraints` of them), then three measures a joint; rank:
-    (constraints,) 0 of a constraint that is always independent, else the order in which `redundant` tests it.
+    (constraints,) 0 of a constraint that is always independent, else the order in which
+    `redundant_constraints` tests it.
     """
 
     def __init__(
@@ -136,8 +137,8 @@ class Frames:
                 yield [(self._corner(end), self._vector(self.end_segment(end), kind), weight)]
 
     def at(self, y: np.ndarray) -> Measured:
-        """Return the quantities at coordinate displacements y; a quantity is bilinear in the vectors, hence
-        half the product of its slopes and the vectors."""
+        """Return the constraints' residuals, the joint measures and their slopes at coordinate displacements
+        y. Each is bilinear in the vectors, hence half the product of its slopes and the vectors."""
         v = self._constant + self._map @ y[: self.coordinates]
         slopes = np.zeros((len(self._target), len(v), 3))
         np.add.at(slopes, (self._quantity, self._first), self._weight[:, None] * v[self._second])
@@ -150,8 +151,8 @@ class Frames:
         return np.matmul(self._map.T, slopes)
 
     def ground_couple(self, at: Measured, weights: np.ndarray) -> np.ndarray:
-        """Return the moment (3,) [N·m] that keeps the ground's frame from turning: Σ v × Σ weight × slope by
-        v."""
+        """Return the moment (3,) [N·m] that holds the orientation of the ground's frame: Σ v × Σ weight ×
+        slope by v."""
         ground = slice(3 * self.segments, 3 * self.segments + 3)
         pull = np.tensordot(weights, at.slopes[:, ground], axes=1)
         return np.cross(at.vectors[ground], pull).sum(axis=0)

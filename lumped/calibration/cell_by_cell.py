@@ -40,7 +40,7 @@ class GridCells:
 
     @classmethod
     def stacked(cls, each: Sequence[Self], several: bool = False) -> Self:
-        """Return the cells of several grids row after row, alike but for sides and sections."""
+        """Return the cells of several grids stacked by rows; the grids differ in sides and sections only."""
 
         def joined(parts: Iterable[Any], names: Iterable[str]) -> dict[str, Any]:
             return {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
@@ -68,7 +68,7 @@ class GridCells:
         return array
 
     def share(self) -> np.ndarray:
-        """Return the sheet's share of each cell, (rows, columns), 0 of absent cells."""
+        """Return the share of each cell's area that the sheet covers, (rows, columns)."""
         share = self.covered if self.cells is None or self.cells.share is None else self.cells.share
         return np.asarray(share, dtype=float)
 

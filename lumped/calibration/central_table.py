@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 
 class CentralFactors(NamedTuple):
-    """Factors at a Poisson's ratio: D11 = bending D, D12 = D66 = twisting D, A11 = stretching A, A12 = A66 =
-    (twisting/bending) stretching A, D and A the sheet's; largest errors on the training scenes that bend and
-    that stretch, and of `cauchy` on scenes that bend."""
+    """Factors on the sheet's D and A at a Poisson's ratio, with their errors. D11 = bending D, D12 = D66 =
+    twisting D, A11 = stretching A, A12 = A66 = (twisting/bending) stretching A; the errors are the largest on
+    the training scenes that bend and that stretch, and of `cauchy` on scenes that bend."""
 
     poisson: float
     bending: float

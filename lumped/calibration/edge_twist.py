@@ -79,8 +79,9 @@ class Strips(NamedTuple):
     def reduction(
         self, place: np.ndarray, cell: np.ndarray, count: np.ndarray, far: bool, both: bool
     ) -> tuple[np.ndarray, bool]:
-        """Return the change (f − 1) D̃66 (m,) [N·m] of the cells at the near or the far end of strips of
-        `count` cells (m,) by free edges, and whether every cell has a factor; cells without have the largest.
+        """Return the change (f − 1) D̃66 (m,) [N·m] of the twisting stiffness of cells at the near or the far
+        free end of strips of `count` cells (m,), and whether a factor exists for each; else it is the
+        largest.
 
         On a graded grid every cell along an edge has the f of the strip of cells that begins with it. A strip
         with two free edges and cells finer towards one has the f of the strip and its mirror image as one."""
@@ -129,8 +130,9 @@ def edge_factors(
     lost: np.ndarray,
     both: bool,
 ) -> np.ndarray:
-    """Return f (m,) of the cells along one edge of strips, or along both; 0 where f = 0 loses less than the
-    width λ, NaN where no other factor loses it.
+    """Return the factors f (m,) of the twisting stiffness for cells along one free edge of strips, or along
+    both. f = 0 if even then the strip is stiffer than one narrower by λ, NaN if no other factor matches that
+    width.
 
     Arrays over the cells across the strips, (m, n), with m or n = 1 for equal ones: width [m]; twisting: D66
     [N·m]; shear: S along the edge [N/m]; by_diagonals: share of S in the cells' diagonals. lost: λ (m,) [m];

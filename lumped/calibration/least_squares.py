@@ -63,7 +63,7 @@ def fit_moduli(grid_cells: GridCells, layer_distance: float | None = None) -> Sp
     high = np.select(kinds, [np.inf, np.inf], 2.0)
 
     def fitted(active: np.ndarray) -> np.ndarray:
-        """Return the unknowns with the least weighted error; unknowns that are not active stay 0."""
+        """Fit the active unknowns by least squares, and return all unknowns; the others are 0."""
 
         def of(values: np.ndarray) -> np.ndarray:
             unknowns = np.zeros_like(start)

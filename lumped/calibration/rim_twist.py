@@ -97,7 +97,7 @@ def with_twist(
 
 
 def _neighbours(rows: np.ndarray, beyond: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the values before and after each along the first axis, `beyond` past the ends."""
+    """Return the previous and the next value of each along the first axis, with `beyond` past the ends."""
     end = np.full_like(rows[:1], beyond)
     return np.concatenate([end, rows[:-1]]), np.concatenate([rows[1:], end])
 

@@ -16,8 +16,8 @@ from lumped.assembly import Assembly
 from lumped.dynamics import drag
 from lumped.springs.all_families import AllFamilies, table_dampers
 from lumped.springs.families import Family
+from lumped.springs.packed_forces import add_damping_from_shapes
 from lumped.springs.packed_forces import add_forces as add_spring_forces
-from lumped.springs.packed_forces import resist_again
 from lumped.springs.packing import Packing, Scratch
 from sheetbench.numerics.options import njit
 from sheetbench.scenes import Scene
@@ -102,5 +102,5 @@ def add_damping_again(
     `add_forces`; add the springs' dampers' force to `out` only if `pushed`."""
     power = add_resistance(forces, u, v, out)
     if forces.packing.damped:
-        power += resist_again(v, pushed, forces.packing, forces.scratch, out)
+        power += add_damping_from_shapes(v, pushed, forces.packing, forces.scratch, out)
     return power

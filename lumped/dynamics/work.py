@@ -18,21 +18,22 @@ def work(system: System, before: State, after: State) -> float:
     if system.nonconservative:
         mean = 0.5 * (system.external(before.u, before.time) + system.external(after.u, after.time))
         done += float(np.sum((mean - system.problem.loads.dead) * (after.u - before.u)))
-    then, now = system.drive(before.time), system.drive(after.time)
+    start, end = system.drive(before.time), system.drive(after.time)
     for one in system.contacts if system.pushed else ():
-        exerted = one.exerted((before.u, then), before.v) + one.exerted((after.u, now), after.v)
-        done += 0.5 * exerted.sum(axis=0) @ (one.obstacle.place(*now) - one.obstacle.place(*then))
+        exerted = one.exerted((before.u, start), before.v) + one.exerted((after.u, end), after.v)
+        done += 0.5 * exerted.sum(axis=0) @ (one.obstacle.place(*end) - one.obstacle.place(*start))
     return done
 
 
 def imposed_work(system: System, before: State, after: State) -> float:
-    """Return the work [J] of commands and natural states in a step, with the start's displacement in its
-    first half and the end's in its second, and the gain of kinetic energy of prescribed masses."""
+    """Return the work [J] of commands and natural states in a step, plus the gain of kinetic energy of
+    prescribed masses. Commands change at the start's displacement in the first half of the step, and at the
+    end's in the second."""
     middle, done = 0.5 * (before.time + after.time), 0.0
-    for u, then, now in ((before.u, before.time, middle), (after.u, middle, after.time)):
-        done += natural_work(system, u, then, now)
+    for u, start, end in ((before.u, before.time, middle), (after.u, middle, after.time)):
+        done += natural_work(system, u, start, end)
         if system.coupling is not None:
-            done += system.coupling.command_work(u, system.drive(then), system.drive(now))
+            done += system.coupling.command_work(u, system.drive(start), system.drive(end))
     if system.prescribed.moving:
         done += prescribed_kinetic(system, after) - prescribed_kinetic(system, before)
     return done
@@ -70,11 +71,11 @@ def obstacle_power(system: System, state: State) -> float:
     return float(sum(force @ body.velocity(state.time) for force, body in bodies))
 
 
-def natural_work(system: System, u: np.ndarray, then: float, now: float) -> float:
+def natural_work(system: System, u: np.ndarray, start: float, end: float) -> float:
     """Return the work [J] of a natural state that changes while the sheet stays at u (n, 3) [m]."""
     if (state := system.growing) is None:
         return 0.0
-    before, after = (state.at(time=time).force(u)[0] for time in (then, now))
+    before, after = (state.at(time=time).force(u)[0] for time in (start, end))
     return float(after - before)
 
 

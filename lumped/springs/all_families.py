@@ -112,9 +112,9 @@ class AllFamilies:
     def force(self, u: np.ndarray) -> tuple[float, np.ndarray]:
         """Return the energy [J] and the internal force, its gradient."""
         energy, internal = force(np.ascontiguousarray(u), self.springs)
-        return energy, self.with_others(u, internal)
+        return energy, self.add_other_forces(u, internal)
 
-    def with_others(self, u: np.ndarray, internal: np.ndarray) -> np.ndarray:
+    def add_other_forces(self, u: np.ndarray, internal: np.ndarray) -> np.ndarray:
         """Add the forces at u of springs without an energy to `internal`, and return it."""
         for family in self._others:
             family.add_force(u, internal)
@@ -126,7 +126,7 @@ class AllFamilies:
         force = np.zeros_like(start)
         for family in self._central:
             family.loops.add_average_forces(start, end, family.arrays, force)
-        return self.with_others(0.5 * (start + end), force)
+        return self.add_other_forces(0.5 * (start + end), force)
 
     def powers_by_constants(self, u: np.ndarray, v: np.ndarray) -> list[np.ndarray]:
         """Return the derivatives of the power v·f of every spring at u by its constants, then by its natural

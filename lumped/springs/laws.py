@@ -95,9 +95,9 @@ def times_six(d: Constants, x: Three) -> Three:
 
 @inner()
 def area_and_strains(d: Four, g: Three, area: float, q: Constants) -> tuple[float, Memory, Four]:
-    """Return energy W, memory (t, A²) and stress S of an area spring and of springs against the Green strains
-    of the sides, W = ½ q₀ (A − A₀)² + ½ δg·Q δg, A² = det g, Q of q₁ to q₆ (11, 22, 33, 12, 13, 23), with
-    couplings by fibres.
+    """Return energy W, memory (t, A²) and stress S of an area spring and springs against the sides' Green
+    strains: W = ½ q₀ (A − A₀)² + ½ δg·Q δg. A² = det g, and Q consists of q₁ to q₆ (11, 22, 33, 12, 13, 23),
+    with couplings by fibres.
 
     d: δg; g: at rest; area: A₀; q: [N/m³] (`of_stiffness`). t = ½ q₀ (A − A₀)/A is the area spring's stress
     over n = (g₂₂, g₁₁, −2 g₁₂).
@@ -177,10 +177,10 @@ def area_and_strains_by_constants(
 
 
 def of_stiffness(k: np.ndarray, sides: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """Return the constants q (c, 7) [N/m³] of springs of stiffness k (c, 4 or 7) [N/m] against the change of
-    area A/A₀ − 1 and the Green strains ε1 = δg₁₁/2g₁₁, ε2 = δg₂₂/2g₂₂, γ = δg₁₂/√(g₁₁ g₂₂), each with the
-    energy ½ k ε² A₀, and of the couplings of ε1 ε2, ε1 γ and ε2 γ, with k ε ε A₀; for cells with sides
-    (c, 2, 3) [m] and area (c,) [m²] at rest."""
+    """Return the constants q (c, 7) [N/m³] of `area_and_strains` from stiffnesses k (c, 4 or 7) [N/m]. Four
+    resist the change of area A/A₀ − 1 and the Green strains ε1 = δg₁₁/2g₁₁, ε2 = δg₂₂/2g₂₂, γ = δg₁₂/√(g₁₁
+    g₂₂), each with the energy ½ k ε² A₀; three more couple ε1 ε2, ε1 γ and ε2 γ, with k ε ε A₀. sides: (c, 2,
+    3) [m] and area: (c,) [m²] of the cells at rest."""
     a, b = (sides**2).sum(axis=2).T
     first, second, shear = 0.5 / a, 0.5 / b, 1.0 / np.sqrt(a * b)
     products = first * second, first * shear, second * shear

@@ -83,9 +83,9 @@ def add_forces(
 def survey(
     u: np.ndarray, links: LinkArrays, kind: np.ndarray, kinds: int, layers: int
 ) -> tuple[np.ndarray, float, float]:
-    """Return the energies [J] of the links by kind, (kinds,), the part stored by the layers' mean stretch,
-    and the largest relative change of length as `strains`; the links between two columns follow each other,
-    layer by layer."""
+    """Return the links' energies [J] by kind, (kinds,), the part stored by the layers' mean stretch, and the
+    largest relative change of length, as `strains`. The links between two columns are consecutive, layer by
+    layer."""
     out, stretch, summed, firm, met, least, most = zeros(kinds), 0.0, 0.0, 0.0, 0, 0.0, 0.0
     for m in range(len(links.nodes)):
         change, square, length, _ = measure(u, links, m)
@@ -107,9 +107,9 @@ def larger(least: float, most: float) -> float:
 
 @njit
 def strains(states: np.ndarray, links: LinkArrays, shortest: float) -> tuple[np.ndarray, int]:
-    """Return the largest relative change of length of the links in a layer, by the extremes of δg/g₀, at each
-    of the displacements (k, n, 3) [m] before the first with a collapsed link, no longer than the `shortest`
-    share of its length at rest; and the number of the collapsed link, −1 without one."""
+    """Return the largest relative change of length of in-plane links at each of the displacements (k, n, 3)
+    [m] before the first with a collapsed link, and the number of that link, −1 without one. A link has
+    collapsed at the `shortest` share of its length at rest."""
     out = empty(len(states))
     for k in range(len(states)):
         least, most, collapsed, which = 0.0, 0.0, shortest * shortest, -1

@@ -31,20 +31,22 @@ def add_forces(
     """Add the internal force at displacement u (n, 3) [m] and the damping force at velocity v (n, 3) [m/s],
     or one of them, to `force` (n, 3) [N]; return the energy [J] and the power taken [W]. Rows after the
     masses' rows are unchanged."""
-    lay_out(u, packing, scratch.u)
+    write_at_places(u, packing, scratch.u)
     if damped:
-        lay_out(v, packing, scratch.v)
+        write_at_places(v, packing, scratch.v)
     energy_and_power = at_places(NUMBA_TRUE, elastic, damped, NUMBA_TRUE, packing, scratch)
     add_from_places(scratch.force, packing, force)
     return energy_and_power
 
 
 @njit(**OPTIONS)
-def resist_again(v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch, force: np.ndarray) -> float:
+def add_damping_from_shapes(
+    v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch, force: np.ndarray
+) -> float:
     """Return the power [W] of dampers at velocity v (n, 3) [m/s], at the displacement of the last
     `add_forces`, whose shapes are reused if the packing keeps them; add their force to `force` (n, 3) [N] if
     `pushed`."""
-    lay_out(v, packing, scratch.v)
+    write_at_places(v, packing, scratch.v)
     power = at_places(not packing.keeping, NUMBA_FALSE, NUMBA_TRUE, pushed, packing, scratch)[1]
     if pushed:
         add_from_places(scratch.force, packing, force)
@@ -55,8 +57,8 @@ def resist_again(v: np.ndarray, pushed: bool, packing: Packing, scratch: Scratch
 def at_places(
     fresh: bool, elastic: bool, damped: bool, pushed: bool, packing: Packing, at: Scratch
 ) -> tuple[float, float]:
-    """Return energy [J] and power [W] of the displacement and velocity at the places of a packing, by a pass
-    that computes shapes (fresh) or reuses kept ones; set the forces at the places if `pushed`. The
+    """Return the energy [J] and power [W] at the displacement and velocity stored in a packing's scratch
+    arrays. fresh: compute the springs' shapes, else reuse them; pushed: write the forces too. The
     mid-surface's places are written to."""
     u, v, force, tile = at
     force[:] = 0.0
@@ -103,12 +105,12 @@ def at_places(
             tiles.push_corner(0.5, 0.5, c, size, blocks, tile, force)
             tiles.push_corner(-0.5, 0.5, d, size, blocks, tile, force)
     if packing.mid and pushed:
-        share_out(packing, force)
+        distribute_over_layers(packing, force)
     return energy, power
 
 
 @njit(**OPTIONS)
-def lay_out(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
+def write_at_places(x: np.ndarray, packing: Packing, out: np.ndarray) -> None:
     """Write a vector (n, 3) to the places of a packing."""
     layers, plane, flat = packing.layers, packing.plane, x.reshape(-1)
     for q in range(THREE):
@@ -141,7 +143,7 @@ def average(packing: Packing, x: np.ndarray) -> None:
 
 
 @njit(**OPTIONS)
-def share_out(packing: Packing, force: np.ndarray) -> None:
+def distribute_over_layers(packing: Packing, force: np.ndarray) -> None:
     """Distribute the force on the mid-surface equally over the layers."""
     plane, mid = packing.plane, packing.layers * packing.plane
     for q in range(THREE):

@@ -27,7 +27,7 @@ BLOCK = int(LANES)
 CACHE_LIMIT = (
     2**18
 )  # numbers of all kept shapes: computing them is faster than reading from beyond the caches
-BRIDGED = 4  # largest distance in places from one spring of a run to the next
+LARGEST_GAP = 4  # largest distance in places from one spring of a run to the next
 OF_LAWS = {CELLS: AREA_AND_STRAINS, RUBBER_CELLS: RUBBER, FACES: FACE}
 ROWS = {LINKS: LINK_DATA} | {kind: CELL_DATA[law.tag] for kind, law in OF_LAWS.items()}
 ABSENT_SPRING = {  # rest data of places without a spring: a link or a cell of side 1 [m]
@@ -135,8 +135,8 @@ def _in_blocks(count: int) -> int:
 
 
 def _place_shapes(runs: np.ndarray, damped: bool) -> tuple[bool, int]:
-    """Set the place of each run's shapes in runs (r, 8), one place for all if there are no dampers or too
-    many shapes; return whether each run has a separate place, and a tile's length."""
+    """Write the offset of each run's shapes into runs (r, 8), one offset for all without dampers or with too
+    many shapes; return whether offsets differ, and the length of a tile."""
     rows = np.where(runs[:, 0] >= CELLS, CELL_SHAPE, LINK_SHAPE)
     before = np.append(0, np.cumsum(rows)).astype(int)
     keeping = damped and STRIDE * int(before[-1]) <= CACHE_LIMIT
@@ -191,7 +191,7 @@ def _topology(grid: Grid, *nodes: np.ndarray) -> Topology:
     tile = [first // plane, in_plane // width // lines, distances]
     if width > WIDTH:
         tile.append(in_plane % width // columns)
-    cut = np.diff(first) > BRIDGED
+    cut = np.diff(first) > LARGEST_GAP
     for part in tile:
         cut |= part[1:] != part[:-1]
     begins = np.append(0, np.flatnonzero(cut) + 1)

@@ -1,4 +1,4 @@
-"""Runs of springs at constant distances between their masses, a tile at a time, which compilers vectorise.
+"""Forces of springs in vectorised loops: runs of springs with constant index distances, in tiles of WIDTH.
 
 The masses are numbered plane by plane (`lumped.springs.packing`), so that springs of one direction join mass
 a + i to mass a + i + d for i = 0, 1, … without a list of masses. A tile holds up to WIDTH springs, a row for
@@ -66,8 +66,8 @@ def stretch_links(
     tile: np.ndarray,
     at: int,
 ) -> float:
-    """Set the directions at displacement u, and the first row to a share of the springs' pulls; return the
-    energy [J]."""
+    """Write the links' directions at displacement u, and `share` times their forces into the tile's first
+    row; return their energy [J]."""
     energy = 0.0
     for i in range(blocks * LANES):
         ox, oy, oz = load_each(GIVEN, rest, t + i, STRIDE, 3)
@@ -91,7 +91,7 @@ def stretch_links(
 def resist_links(
     v: np.ndarray, rest: np.ndarray, t: int, a: int, b: int, size: int, blocks: int, tile: np.ndarray, at: int
 ) -> float:
-    """Add the pulls of the dampers at velocity v to the first row; return the power taken [W]."""
+    """Add the links' damper forces at velocity v to the tile's first row; return the power dissipated [W]."""
     power = 0.0
     for i in range(blocks * LANES):
         n = load_each(KEPT, tile, at + i, STRIDE, 3)
@@ -105,7 +105,7 @@ def resist_links(
 
 @inner(**OPTIONS)
 def push(force: np.ndarray, place: int, size: int, x: float, y: float, z: float) -> None:
-    """Add to the force at a place."""
+    """Add a vector x, y, z to the force on the mass at a place."""
     store(FORCE_X, force, place, load(FORCE_X, force, place) + x)
     store(FORCE_Y, force, place + size, load(FORCE_Y, force, place + size) + y)
     store(FORCE_Z, force, place + size + size, load(FORCE_Z, force, place + size + size) + z)
@@ -115,7 +115,7 @@ def push(force: np.ndarray, place: int, size: int, x: float, y: float, z: float)
 def pull_ends(
     sign: float, end: int, size: int, blocks: int, tile: np.ndarray, at: int, force: np.ndarray
 ) -> None:
-    """Add the pulls, times 1 or −1, to the forces on one end of the links."""
+    """Add the links' forces in the tile, times 1 or −1, to the forces on the masses at one end."""
     for i in range(blocks * LANES):
         pull, n = sign * load(ROW, tile, R0 + i), load_each(KEPT, tile, at + i, STRIDE, 3)
         push(force, end + i, size, pull * n[0], pull * n[1], pull * n[2])
@@ -125,7 +125,7 @@ def pull_ends(
 def gather_sides(
     x: np.ndarray, c0: int, c1: int, c2: int, c3: int, size: int, blocks: int, tile: np.ndarray
 ) -> None:
-    """Set the first rows to a and b of the corners' x."""
+    """Write a and b, the mean sides from the corners' vectors x, into the tile's first rows."""
     for i in range(blocks * LANES):
         k, m = load_each(GIVEN, x, c0 + i, size, 3), load_each(GIVEN, x, c1 + i, size, 3)
         n, o = load_each(GIVEN, x, c2 + i, size, 3), load_each(GIVEN, x, c3 + i, size, 3)
@@ -139,7 +139,8 @@ def gather_sides(
 def push_corner(
     on_a: float, on_b: float, corner: int, size: int, blocks: int, tile: np.ndarray, force: np.ndarray
 ) -> None:
-    """Add the forces on the sides, times on_a and on_b (±½), to the force on one corner."""
+    """Add the tile's forces on the mean sides, times on_a and on_b (±½), to the force on one corner of the
+    cells."""
     for i in range(blocks * LANES):
         a, b = load_each(ROW, tile, R6 + i, STRIDE, 3), load_each(ROW, tile, R9 + i, STRIDE, 3)
         x, y, z = on_a * a[0] + on_b * b[0], on_a * a[1] + on_b * b[1], on_a * a[2] + on_b * b[2]
@@ -151,8 +152,8 @@ def stretch_cells(
     law: Tag, x: np.ndarray, corners: Places, size: int, share: float, t: int, blocks: int, tile: np.ndarray,
     at: int,
 ) -> float:  # fmt: skip
-    """Set the shapes, and the rows of forces to a share of the springs' forces; return the energy [J]. The
-    changes of the sides are in the tile; x and the corners' places give q of a law that has s."""
+    """Write the cells' shapes, and `share` times the forces on their sides into the tile; return their energy
+    [J]. The changes of the sides are in the tile; x and the corners' places give q of a law that has s."""
     rest, energy = law.constants, 0.0
     for i in range(blocks * LANES):
         a0, b0 = load_each(GIVEN, rest, t + i, STRIDE, 3), load_each(GIVEN, rest, t + R3 + i, STRIDE, 3)
@@ -192,7 +193,8 @@ def stretch_cells(
 
 @njit(**OPTIONS)
 def push_warp(law: Tag, corners: Places, size: int, blocks: int, tile: np.ndarray, force: np.ndarray) -> None:
-    """Add the forces on q, for a law that has s, to the corners' forces."""
+    """Add the tile's forces on the warp q, if the law has the measure s, to the forces on the cells'
+    corners."""
     if measures(law) < 4:
         return
     sign = 1.0
@@ -205,7 +207,7 @@ def push_warp(law: Tag, corners: Places, size: int, blocks: int, tile: np.ndarra
 
 @njit(**OPTIONS)
 def resist_cells(rest: np.ndarray, t: int, blocks: int, tile: np.ndarray, at: int) -> float:
-    """Add the forces of the dampers to the rows of forces; return the power taken [W]."""
+    """Add the cells' damper forces to the tile's forces on the sides; return the power dissipated [W]."""
     power = 0.0
     for i in range(blocks * LANES):
         a, b = load_each(KEPT, tile, at + i, STRIDE, 3), load_each(KEPT, tile, at + R3 + i, STRIDE, 3)

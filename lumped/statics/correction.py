@@ -55,9 +55,10 @@ def advance(
     free: Rows,
     driving: float,
 ) -> tuple[np.ndarray, float, Stresses, np.ndarray, Any]:
-    """Return the displacement (n, 3) [m] after a step (m,) [m] of the unknowns and the motion `moved` (n, 3)
-    [m] of the supports, empty without one; the largest component of the change [m]; the stresses that the
-    linearisation at u predicts; the springs' force (n, 3) [N] after it; and `unbalanced_force` of that."""
+    """Advance the displacement u (n, 3) [m] by a step (m,) [m] of the unknowns and the supports' motion
+    `moved` (n, 3) [m], empty without one. Return it with the largest component of the change [m], the
+    stresses that the linearisation at u predicts, the springs' force (n, 3) [N] afterwards, and its
+    `unbalanced_force`."""
     move = product(free, step).reshape(u.shape)
     after, length = empty(u.shape), 0.0
     for i in range(len(u)):

@@ -70,7 +70,7 @@ def _minimise(path: LatticePath, problem: Problem, u: np.ndarray, load_factor: f
         share = min(1.0, 0.25 * problem.size / float(np.abs(move).max()))
         start, end = (u, drive), (u + share * move, drive)
         share *= min(
-            (contact.near(end).share_of_way(contact.near(start)) for contact in problem.contacts), default=1.0
+            (contact.near(end).free_share(contact.near(start)) for contact in problem.contacts), default=1.0
         )
         while share > 1e-10:
             if problem.potential(u + share * move, load_factor) <= before + 1e-4 * share * slope:

@@ -270,7 +270,7 @@ class Problem(Structure[LatticeState, Residual]):
         after, length, stresses, internal, unbalanced = advance(state.u, step, moved, *given)
         residual = Residual(*unbalanced)
         if self._others or not springs.conservative:
-            internal = springs.with_others(after, internal)
+            internal = springs.add_other_forces(after, internal)
             self._add_others(after, Drive(load_factor), internal)
             residual = self._residual(internal, after, load_factor)
         return LatticeState(after, load_factor, residual, stresses, state.u, length)

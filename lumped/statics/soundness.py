@@ -12,7 +12,7 @@ from sheetbench.numerics.aliasing import empty, zeros
 from sheetbench.numerics.options import inner, njit
 
 TINY = float(np.finfo(float).tiny)
-TIED = 1.0 + 1e-9  # the first of mirror images is named, which differ by rounding alone
+TIE_FACTOR = 1.0 + 1e-9  # the first of mirror images is named, which differ by rounding alone
 
 
 @inner()
@@ -49,11 +49,11 @@ def examine(
     positions: np.ndarray,
     areas: np.ndarray,
 ) -> tuple[np.ndarray, int, int]:
-    """Return `links.strains` of the displacements (k, n, 3) [m] before the first invalid one, the number of
-    its fault, −1 without one, and the mass at it: 0, a number is not finite; 1, the shortest link; 2, the
-    cell of the mid-surface whose normal, relative to its flat area, points away from the mean director of its
-    corners most. shortest: length of a link over its length at rest; areas: (ny − 1, nx − 1) [m²], 0 of
-    absent cells; other arguments as in `surface`."""
+    """Check displacements (k, n, 3) [m]: return `links.strains` of those before the first invalid one, the
+    number of its fault, −1 without one, and the mass at the fault. 0: a number is not finite; 1: the shortest
+    link; 2: the cell of the mid-surface whose normal, relative to its flat area, points most away from the
+    mean director of its corners. shortest: length of a link over its length at rest; areas: (ny − 1, nx − 1)
+    [m²], 0 of absent cells; other arguments as in `surface`."""
     ny, nx, _ = columns.shape
     sound, kind, mass = len(states), -1, 0
     for k in range(len(states)):
@@ -109,7 +109,7 @@ def sharpest_bend(
                 xx, xy, yx, yy = xx + m_x * d_x, xy + m_x * d_y, yx + m_y * d_x, yy + m_y * d_y
             gauss = 0.25 * math.sqrt(abs(xx * yy - (0.5 * (xy + yx)) ** 2)) / areas[j, i]
             bent = max(along_x[i], along_y[j]) ** 2 * gauss
-            if bent > TIED * largest:
+            if bent > TIE_FACTOR * largest:
                 largest, row, column = bent, j, i
     return largest, max(along_x[column], along_y[row]), row, column
 

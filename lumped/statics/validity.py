@@ -47,9 +47,8 @@ FREE_OF_STRETCH = 0.025  # share of energy in the layers' mean stretch below whi
 
 
 def lost_digits(problem: Problem, state: LatticeState, factor: Factor | None) -> Fault | None:
-    """Return a fault with the displacement by rounding of the internal force if its estimate exceeds
-    DOUBTFUL; its status is `singular` if the remaining unbalanced force displaces the equilibrium by more
-    than LOST."""
+    """Return a fault if the estimated displacement caused by rounding of the internal force exceeds DOUBTFUL.
+    Its status is `singular` if the remaining unbalanced force displaces the equilibrium by more than LOST."""
     largest = float(np.abs(state.u).max())
     if factor is None or largest == 0.0:
         return None
@@ -101,7 +100,7 @@ def thin_layers(problem: Problem, state: LatticeState, survey: Survey) -> str:
 
 
 def slender_cells(lattice: Lattice) -> str:
-    """Return a sentence if an unstable lattice has cells so slender that they may be the cause, else ""."""
+    """Return a sentence if slender cells may be the cause of a lattice's instability, else ""."""
     x, y = (line.widths for line in lattice.lines)
     times = max(x.max() / y.min(), y.max() / x.min())
     if times < SLENDER:

@@ -26,8 +26,8 @@ class ContactState:
 
     @classmethod
     def of(cls, depth: np.ndarray, area: np.ndarray, load: np.ndarray) -> Self:
-        """Return the contact of points or parts of cells. depth: over the thickness, with δ₀, < 0 without
-        contact. area: of each in contact [m²]; load: on them [N]."""
+        """Return the state of contact from the depths of points or parts of cells. depth: over the thickness,
+        with δ₀, < 0 without contact. area: of each in contact [m²]; load: on them [N]."""
         over, touching = depth - TOUCH, depth > 0.0
         deepest = float(over.max(initial=0.0))
         near = np.abs(over) <= min(UNDECIDED, 1e-3 * deepest)
@@ -37,7 +37,7 @@ class ContactState:
 
     @property
     def notes(self) -> list[str]:
-        """Return clauses on deep penetration and undecided points."""
-        deep = f"the sheet is pressed in by {self.penetration:.2g} of its thickness"
-        near = f"{self.undecided} points are about to touch or to leave: stability undecided"
+        """Return clauses on deep penetration and on points that barely touch."""
+        deep = f"the penetration is {self.penetration:.2g} of the thickness"
+        near = f"{self.undecided} points barely touch or barely do not: stability undecided"
         return [deep] * (self.penetration > DEEP) + [near] * (self.undecided > 0)

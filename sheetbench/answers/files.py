@@ -1,4 +1,4 @@
-"""Folders and documents: folders for files, and plain data as JSON."""
+"""Folders for output files, and conversion of plain data to JSON."""
 
 import hashlib
 import json
@@ -32,7 +32,7 @@ def folder(path: Path | str, option: str = "--out") -> Path:
     try:
         made.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        why = "a link to nothing is there" if made.is_symlink() else error.strerror
+        why = "a broken link is there" if made.is_symlink() else error.strerror
         raise BadInput(f"{option} = '{path}': cannot make this folder: {why}") from None
     if not os.access(made, os.W_OK | os.X_OK):
         raise BadInput(f"{option} = '{path}': cannot be written to; make it writable, or choose another")

@@ -109,11 +109,12 @@ class History(Answer):
 
     @property
     def accounts(self) -> dict[str, np.ndarray]:
-        """Return the energies, with the integrator's own dissipation; empty if there are none."""
+        """Return the energies by name, with the integrator's numerical dissipation; empty if none were
+        recorded."""
         return {**self.energies, "numerical": self.numerical} if self.energies else {}
 
     def gradient(self, *_: Any, **__: Any) -> None:
-        """Refuse adjoint derivatives, which motions do not have, by name: BadInput."""
+        """Raise BadInput: a motion has no adjoint derivatives."""
         raise BadInput(
             "gradient: a motion has no adjoint in time; lumped.simulate(..., sensitivities=['young']) has "
             "derivatives by up to 20 parameters"
@@ -165,7 +166,7 @@ class History(Answer):
         spread = float(abs(self.numerical).max())
         scale = max(float(abs(energy).max()) for energy in self.energies.values())
         held = number(spread / scale if scale else spread, ".1e")
-        return [*notes, f"energy balance held to {held} of the largest energy"]
+        return [*notes, f"energy balance closes to {held} of the largest energy"]
 
     def choices(self) -> dict[str, Any]:
         return {"integrator": self.integrator, **self.settings}

@@ -10,7 +10,7 @@ from sheetbench.answers.history import History
 from sheetbench.answers.style import COMPONENTS, MOST, plain
 
 DASHES: Any = {"uy": (0, (4, 4))}  # on a symmetric sheet the curve of uy lies on the curve of ux
-ABOVE: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
+LEGEND: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "frameon": False}
 
 
 def compose(history: History, title: str, style: FigureStyle = PLAIN) -> Figure:
@@ -29,13 +29,13 @@ def compose(history: History, title: str, style: FigureStyle = PLAIN) -> Figure:
             axis.plot(history.time, 1e3 * u[:, i], ls=dashes, color=colour, linewidth=1.0, label=label)
         axis.set_title(plain(name, longest=60), loc="left", fontsize=7.5, fontweight="bold")
         axis.set_ylabel("displacement [mm]")
-    panels[0].legend(ncols=3, **ABOVE)
+    panels[0].legend(ncols=3, **LEGEND)
     for name in ("kinetic", "elastic", "potential", "dissipated"):
         panels[-1].plot(history.time, 1e3 * history.energies[name], linewidth=0.9, label=name)
     panels[-1].plot(history.time, 1e3 * history.balance, "k--", linewidth=0.9, label="balance")
     panels[-1].set_ylabel("energy [mJ]")
     panels[-1].set_xlabel("time [s]")
-    panels[-1].legend(ncols=3 if style.narrow else 5, fontsize=6.5, **ABOVE)
+    panels[-1].legend(ncols=3 if style.narrow else 5, fontsize=6.5, **LEGEND)
     for axis in panels:
         axis.margins(x=0)
     omitted = f"; {count} of {len(history.probes)} probes" if count < len(history.probes) else ""

@@ -1,4 +1,4 @@
-"""A table as lines of text within a width, laid out by rich: every number is whole, and nothing is cut off.
+"""Layout of a table as lines of text within a width; no number or word is cut off.
 
 Headings and prose are broken over lines at spaces. A table that is still too wide is split into blocks one
 under the other, each with the columns that name the rows first. Only a word longer than the width is broken.
@@ -52,7 +52,7 @@ class _TextColumn:
 
     @property
     def wide(self) -> int:
-        """Return the width at which the name is not broken either."""
+        """Return the width at which the name fits in one line too."""
         return max(self.narrow, cell_len(self.name))
 
     def head(self, width: int) -> list[str]:

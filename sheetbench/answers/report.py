@@ -68,7 +68,7 @@ class Picture:
 
     @property
     def moves(self) -> bool:
-        """Return whether the picture is a film, which is written and not shown."""
+        """Return whether the picture is an animation, which is written to a file and not displayed."""
         return self.formats == FILM
 
     def _repr_png_(self) -> bytes | None:
@@ -100,7 +100,7 @@ class Picture:
 
 
 def drawn_from(tables: Iterable[Table]) -> str:
-    """Return the description of a picture of tables: sixteen digits, a digest of their numbers. Numbers are
+    """Return a digest of tables' numbers, sixteen digits, which a picture's description contains. Numbers are
     rounded to a thousandth of the largest in their column."""
 
     def rounded(column: tuple[Any, ...]) -> list[float]:

@@ -297,9 +297,10 @@ class Solution(Answer):
         by: Sequence[str] | None = None,
         at: np.ndarray | None = None,
     ) -> dict[str, Any]:
-        """Return the derivatives of a number J of this equilibrium, by one more solve: of a number of the
-        scene as young, patch1.thickness or load1.force.z a number, of a field over the cells (elements) of
-        the model, as cells.young (elements.young), an array; points that touch an obstacle go on touching it.
+        """Return the derivatives of a number J of this equilibrium by parameters, from one adjoint solve: a
+        number by a number of the scene, for instance young, patch1.thickness or load1.force.z; an array by a
+        field over the model's cells or elements, for instance cells.young or elements.young. Points in
+        contact with an obstacle are taken to stay in contact.
 
         of: a component at a probe, as "P4.uz"; an array (n, 3), J's derivatives by the displacements at the
         probes in their order; or a smooth function of the displacements, (n, 3) [m], that returns J,

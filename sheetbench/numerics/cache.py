@@ -32,7 +32,8 @@ def _bytes(*arguments: object, **_: object) -> float:
 def cached(
     last: int, most: int, size: Callable[..., float] = _bytes
 ) -> Callable[[Callable[Arguments, Result]], Callable[Arguments, Result]]:
-    """Decorate a function of arrays and hashable arguments with a cache of its `last` results, read-only.
+    """Decorate a function of arrays and hashable arguments with a cache of its `last` results, which are
+    read-only.
 
     Results for arguments whose `size`, in bytes unless given, exceeds `most` are not cached. The function's
     attribute `forget` empties the cache.

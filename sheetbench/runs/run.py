@@ -27,7 +27,7 @@ from sheetbench.runs.store import FolderStore, MemoryStore
 
 Part = tuple[str, str, tuple[int, ...]]  # part of a sample's numbers: kind, name, shape
 
-GROWN, REPORTED = 0.1, 0.01  # shares of the energy, for `Watch`
+GROWN, REPORTED = 0.1, 0.01  # shares of the energy, for `SampleChecks`
 MOST_STEPS = 100_000  # of adaptive length between two samples
 
 
@@ -49,15 +49,15 @@ class Observer(Protocol):
         """Return a clause if a strain is beyond the model, else ""."""
 
     def fastest(self, samples: Any, i: int) -> str:
-        """Return the place of the largest speed of the sheet at sample i, in words."""
+        """Return the place of the largest speed of the sheet at sample i, as text."""
 
     def frame(self, samples: Any, i: int) -> np.ndarray:
         """Return the whole displacement (n, 3) [m] of sample i."""
 
 
 @dataclass
-class Watch:
-    """Checks of a run's samples: a growing total energy, strains beyond the model.
+class SampleChecks:
+    """Checks of a run's samples for growth of the total energy and for strains beyond the model.
 
     The sum kinetic + elastic + potential − work never grows in an exact run, with any dampers. A growth from
     the lowest value so far by more than GROWN of the largest energy ends the run. The sum with the dissipated
@@ -112,7 +112,7 @@ class Watch:
         return np.array(list(vars(self).values()))
 
     @classmethod
-    def recall(cls, memory: np.ndarray) -> Self:
+    def restore(cls, memory: np.ndarray) -> Self:
         """Restore the checks from the numbers of `memory`."""
         return cls(*memory.tolist())
 
@@ -121,7 +121,7 @@ class Watch:
 def take(
     rows: np.ndarray, origin: float, lowest: float, largest: float, off: float
 ) -> tuple[int, float, float, float, float, float]:
-    """Return the results of `Watch.take`, and the new state of the checks."""
+    """Return the results of `SampleChecks.take`, and the new state of the checks."""
     for k in range(len(rows)):
         row, most, finite = rows[k], largest, True
         for value in row:
@@ -155,7 +155,8 @@ class Run(Generic[AnyState]):
         self._method, self._observer, self._schedule = method, observer, schedule
         self._store, self._shown, self._progress = store, set(shown), progress or (lambda time: None)
         self.samples = self.steps = 0
-        self.resumed_from, self.spent, self.watch = 0.0, np.zeros(2), Watch(largest=observer.least_energy)
+        self.resumed_from, self.spent = 0.0, np.zeros(2)
+        self.watch = SampleChecks(largest=observer.least_energy)
 
     def finish(self, start: Callable[[], Advance[AnyState]]) -> tuple[Status, str]:
         """Run from the last checkpoint or the start to the end or a fault; return status and message. start:
@@ -246,8 +247,8 @@ class Run(Generic[AnyState]):
             return {k.removeprefix(kind): v for k, v in checkpoint.items() if k.startswith(kind)}
 
         self.samples, self.steps = int(checkpoint["taken"]), int(checkpoint["steps"])
-        self.spent, self.watch = checkpoint["spent"], Watch.recall(checkpoint["watch"])
-        self._method.recall(named("method_"))
+        self.spent, self.watch = checkpoint["spent"], SampleChecks.restore(checkpoint["watch"])
+        self._method.restore(named("method_"))
         fields = named("state_")
         self.resumed_from = float(fields.pop("time"))
         self._progress(self.resumed_from)

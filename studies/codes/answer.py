@@ -23,8 +23,9 @@ LEFT_OUT = (
 
 
 @dataclass(frozen=True)
-class Nearer:
-    """Best of the numbers in use and ours, of a scene or as the geometric mean over scenes."""
+class LeastErrors:
+    """Least errors of a code with the numbers in use and with ours, in one scene or as geometric mean over
+    scenes."""
 
     code: Annotated[str, Column(prose=True)]
     scene: str
@@ -39,7 +40,7 @@ class Nearer:
 
 @dataclass(frozen=True)
 class Front:
-    """Row that no other row beats in both time and error."""
+    """A row on the front: no other has both less time and less error."""
 
     scene: str
     code: Annotated[str, Column(prose=True)]
@@ -50,7 +51,7 @@ class Front:
 
 @dataclass(frozen=True)
 class SceneRow:
-    """Error and time of a scene by recipe, in words."""
+    """Error and time of a scene by recipe, as text."""
 
     scene: str
     recipes: dict[str, str]
@@ -68,17 +69,17 @@ class Codes(Answer):
         return "Codes", "error and time of other people's codes and of our models, on the reference set", ""
 
     def document(self) -> dict[str, Any]:
-        return {"nearer": [{**vars(one), "nearer": one.nearer} for one in self.nearer()]}
+        return {"nearer": [{**vars(one), "nearer": one.nearer} for one in self.least_errors()]}
 
-    def nearer(self) -> list[Nearer]:
+    def least_errors(self) -> list[LeastErrors]:
         """Return the rows of codes that have numbers of both kinds."""
         rows = []
         for code in self.results:
             pairs = code.in_use_and_ours()
-            rows += [Nearer(code.title, scene, *pairs[scene]) for scene in SCENES if scene in pairs]
+            rows += [LeastErrors(code.title, scene, *pairs[scene]) for scene in SCENES if scene in pairs]
             if pairs:
                 means = map(geometric_mean, zip(*pairs.values(), strict=True))
-                rows.append(Nearer(code.title, f"mean of {len(pairs)} statics", *means))
+                rows.append(LeastErrors(code.title, f"mean of {len(pairs)} statics", *means))
         return rows
 
     def front(self, scene: str) -> list[Front]:
@@ -95,10 +96,10 @@ class Codes(Answer):
         return [(title, row) for title, row in pairs if row.scene == scene and row.error is not None]
 
     def tables(self) -> list[Table]:
-        fields = ("code", "scene", "in_use", "ours", "nearer")
+        caption, fields = "Numbers in use and ours", ("code", "scene", "in_use", "ours", "nearer")
         front = [row for scene in SCENES for row in self.front(scene)]
         return [
-            Table.of(Nearer, self.nearer(), "Numbers in use and ours", "nearer", fields=fields, grouped=True),
+            Table.of(LeastErrors, self.least_errors(), caption, "nearer", fields=fields, grouped=True),
             Table.of(Front, front, "The nearest at which cost", "front", grouped=True),
             *map(_of_code, self.results),
         ]

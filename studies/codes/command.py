@@ -38,9 +38,9 @@ def command(
     with output.open() as out:
         for text in code or ():
             name, _, python = text.partition("=")
-            run_trials(name, python, seconds, budget, console.tell)
+            run_trials(name, python, seconds, budget, console.print_status)
         for name in ladder or ():
-            measure_sizes(name, console.tell)
+            measure_sizes(name, console.print_status)
         if standing or model:
-            measure_models(model or (), console.tell, suite)
+            measure_models(model or (), console.print_status, suite)
         return out.show(codes())

@@ -75,21 +75,21 @@ def row(case: Reference, candidate: Spec) -> dict[str, Any]:
     }
 
 
-def measure_sizes(code: str, say: Callable[[str], None]) -> None:
+def measure_sizes(code: str, progress: Callable[[str], None]) -> None:
     """Measure a program's models by size on test 1, and write its file of results."""
     sizes, rows = SIZES[code], []
     for candidate in sizes.models:
         size = next(value for key, value in candidate.settings.items() if key in ("grid", "elements"))
         recipe = f"{size} × {size}" if isinstance(size, int) else " × ".join(map(str, size[:2]))
         result = row(CASES[SCENES[0]], candidate)
-        say(f"{sizes.title}, {recipe}: {result['status']}, {result['error']}")
+        progress(f"{sizes.title}, {recipe}: {result['status']}, {result['error']}")
         rows.append(
             Trial(SCENES[0], recipe, candidate.model, *(result[k] for k in ("status", "error", "seconds")))
         )
     write_results(code, sizes.title, sizes.licence, rows, f"--ladder {code}")
 
 
-def measure_models(names: Sequence[str], say: Callable[[str], None], suite: str = "statics") -> None:
+def measure_models(names: Sequence[str], progress: Callable[[str], None], suite: str = "statics") -> None:
     """Measure models by name on a suite, and put the rows into the set's file; rows of other suites stay.
     Raises BadInput for an unknown model."""
     candidates = {str(candidate): candidate for candidate in (*STANDING, *SLOW)}
@@ -104,8 +104,8 @@ def measure_models(names: Sequence[str], say: Callable[[str], None], suite: str 
             of_other_suites = [stored for stored in rows.get(name, []) if stored["case"] not in cases]
             rows[name] = of_other_suites + [row(case, candidates[name]) for case in cases.values()]
         except BadInput as missing:
-            say(f"{name}: {missing}")
+            progress(f"{name}: {missing}")
             continue
         leaderboard = [stored for name in candidates for stored in rows.get(name, [])]
         write_text(FILE, to_json(plain({**document(), "standing": leaderboard})))
-        say(name)
+        progress(name)

@@ -101,7 +101,7 @@ def _genesis(stretch: float, bending: float) -> dict[str, float]:
     return {"own stretch_compliance": stretch, "own bending_compliance": bending}
 
 
-def run_trials(code: str, python: str, seconds: float, budget: float, say: Callable[[str], None]) -> None:
+def run_trials(code: str, python: str, seconds: float, budget: float, report: Callable[[str], None]) -> None:
     """Run every recipe of a code in every scene, with a Python that has it, and write the file of results.
     seconds: of processor time, the limit of a run; budget: of the clock, after which no further run begins. A
     row of the file with unchanged inputs stays, unless a shorter limit ended it. SCENES come first, then
@@ -128,7 +128,7 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
     )
     for number, (name, recipe) in enumerate(first):
         if perf_counter() > ends:
-            say(f"{code}: {budget:g} s have passed; {len(order) - number} of {len(order)} rows not checked")
+            report(f"{code}: {budget:g} s have passed; {len(order) - number} of {len(order)} rows left")
             break
         with TemporaryDirectory() as folder:
             case_files = _write_files(CASES[name], code, recipe, Path(folder))
@@ -137,7 +137,7 @@ def run_trials(code: str, python: str, seconds: float, budget: float, say: Calla
             if old_row and old_row.inputs == inputs and _final(old_row, seconds):
                 continue
             trial = _trial(case_files, recipe.name, python, seconds, Path(folder), inputs)
-        say(f"{code}, {name}, {recipe.name}: {trial.status}, {trial.error}")
+        report(f"{code}, {name}, {recipe.name}: {trial.status}, {trial.error}")
         rows[name, recipe.name] = trial
         finished = [rows[name, recipe.name] for name, recipe in order if (name, recipe.name) in rows]
         # an interrupted run leaves its finished rows
@@ -163,7 +163,7 @@ def _checksum(folder: Path) -> str:
 
 
 def _final(row: Trial, seconds: float) -> bool:
-    """Return whether a longer limit would not change a row."""
+    """Return whether a row would stay as it is with a longer time limit."""
     return row.status != Status.STEP_LIMIT or (row.seconds or 0.0) > 0.9 * seconds
 
 

@@ -1,1 +1,1 @@
-"""Curves without units that any code of sheets can be laid over."""
+"""Dimensionless curves for the comparison of any codes of sheets."""

@@ -9,8 +9,8 @@ from studies.master_curves.study import measure
 
 
 def command(*, output: PictureOptions) -> Any:
-    """Lay lattice and shell over two curves without units. A cantilever under its own weight has one number,
-    Γ = ρ_A g L³/B; so has a strip that stands on edge and buckles sideways. A code of other units can be laid
-    over both."""
+    """Compare lattice and shell with two dimensionless curves. A cantilever under its own weight has one
+    number, Γ = ρ_A g L³/B; so has a strip that stands on edge and buckles sideways. A code of other units can
+    be laid over both."""
     with output.open() as out:
         return out.show(measure(out.progress))

@@ -41,7 +41,8 @@ def bend_twist(load: float, width: float = NARROW) -> Scene:
 
 
 def way(scene: Scene, moved: Sequence[float] | np.ndarray) -> tuple[float, float, float]:
-    """Return the tip's displacement over the length: along the strip, down, and aside, square to both."""
+    """Return the tip's displacement over the length: along the strip, downwards, and perpendicular to
+    both."""
     assert scene.gravity is not None
     _, y, z = (value / GRAVITY for value in scene.gravity.acceleration)
     along, u, v = (float(value) / LENGTH for value in moved)

@@ -20,7 +20,7 @@ from studies.master_curves.curves import way
 if TYPE_CHECKING:
     from studies.master_curves.study import MasterCurves
 
-HOLLOW: dict[str, Any] = {"ls": "", "ms": 4.0, "mfc": "none"}
+OPEN_MARKERS: dict[str, Any] = {"ls": "", "ms": 4.0, "mfc": "none"}
 CODES = "xP*+"  # marks
 LINE: dict[str, Any] = {"color": DARK, "lw": 1.0}
 Way = Callable[[tuple[float, float, float]], float]
@@ -48,7 +48,7 @@ def _cantilever(axis: Axes, answer: MasterCurves) -> None:
             axis.plot([d.load for d in drops], [d.exact for d in drops], label="heavy elastica", **LINE)
         mark, colour = "s" if model.startswith("shell") else "o", SERIES[number % len(SERIES)]
         loads, values = [d.load for d in drops], [d.found for d in drops]
-        axis.plot(loads, values, mark, color=colour, label=model, **HOLLOW)
+        axis.plot(loads, values, mark, color=colour, label=model, **OPEN_MARKERS)
     _codes(axis, answer, "cantilever", lambda tip: tip[1] / (1.0 + tip[0]))
     axis.set(xscale="log", yscale="log", xlabel=r"Γ = $\rho_A g L^3/B$", ylabel="drop over reach H/W")
 
@@ -58,7 +58,7 @@ def _critical(axis: Axes, curves: MasterCurves) -> None:
     axis.axhline(curves.narrow, ls="--", label="narrow strip", **LINE)
     axis.plot(widths, [row.shell for row in curves.buckled], color=SERIES[0], marker="s", ms=4, label="shell")
     lattice = [row.lattice for row in curves.buckled]
-    axis.plot(widths, lattice, "o", color=SERIES[1], label="lattice", **HOLLOW)
+    axis.plot(widths, lattice, "o", color=SERIES[1], label="lattice", **OPEN_MARKERS)
     axis.set(xlabel="width over length", ylabel="critical Γ* on edge", ylim=(10.0, None))
 
 
@@ -82,7 +82,7 @@ def _turned(axis: Axes, answer: MasterCurves) -> None:
             axis.text(loads[-1], rows[-1].narrow_drop, "drop ", ha="right", va="bottom", fontsize=6.5)
             axis.text(loads[-1], rows[-1].narrow_aside, "aside ", ha="right", va="top", fontsize=6.5)
         ways = [row.drop for row in rows] + [row.aside for row in rows]
-        axis.plot(loads * 2, ways, "so^"[number % 3], color=SERIES[number], label=model, **HOLLOW)
+        axis.plot(loads * 2, ways, "so^"[number % 3], color=SERIES[number], label=model, **OPEN_MARKERS)
     _codes(axis, answer, "bend-twist", lambda tip: tip[1], lambda tip: tip[2])
     axis.set(xscale="log", xlabel="Γ, plane turned by 45°", ylabel="tip's way over length")
 

@@ -26,7 +26,8 @@ from sheetbench.scenes.language.summary import few
 
 
 class Goal(NamedTuple):
-    """Required share kept, largest median of promised/actual, and bound of actual/promised."""
+    """Requirements on promises: share that must be kept, largest median of promised/actual, largest
+    actual/promised."""
 
     share: float
     loosest: float = np.inf
@@ -68,7 +69,7 @@ class Promise:
 
 @dataclass(frozen=True)
 class Share:
-    """Share of promises of one kind that were kept."""
+    """Share of the promises of one kind that were kept."""
 
     promise: str
     at: str
@@ -173,7 +174,8 @@ def share(rows: Sequence[Promise], kind: str = "") -> Share:
 
 
 def _chance(scenes: Sequence[Sequence[bool]]) -> float:
-    """Return the standard error of the share that is kept, by scenes; nan of fewer than two."""
+    """Return the standard error of the share that is kept, from its variation between scenes; nan for fewer
+    than two."""
     n = len(scenes)
     if n < 2:
         return float("nan")

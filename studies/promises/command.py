@@ -41,7 +41,7 @@ def command(
     parts, rows, skipped = part or PARTS, list[Promise](), dict[str, str]()
     with output.open() as out:
         if anew:
-            solve_again(console.tell)
+            solve_again(console.print_status)
         with out.campaign(campaign) as run:
             if "bars" in parts:
                 models = [name for name in study.MODELS if name in (model or study.MODELS)]

@@ -33,16 +33,16 @@ Row = dict[str, Any]
 
 
 def stored() -> dict[str, Row]:
-    """Return every stored scene's row by its name: group, scene, shell, lattices."""
+    """Return the stored rows by scene name: group, scene, the shell's and the lattices' answers."""
     rows: dict[str, Row] = json.loads(STORED.read_text(encoding="utf-8"))
     return {name: {**row, "scene": Scene.model_validate(row["scene"])} for name, row in rows.items()}
 
 
-def solve_again(say: Callable[[str], None]) -> None:
+def solve_again(progress: Callable[[str], None]) -> None:
     """Solve every stored scene again, and store the answers."""
     rows = []
     for name, row in stored().items():
-        say(name)
+        progress(name)
         scene = row["scene"]
         grids = [grid_of(scene.sheet, n) for n in GRIDS]
         needed_grids = sorted({*grids, *(finer_grid(grid, scene) for grid in grids)})

@@ -38,8 +38,8 @@ from sheetbench.scenes import Scene
 from studies.promises.answer import Promise
 from studies.promises.scenes import KINDS, SEED, drawn_scenes, scenes_of_kinds
 
-TRUTH = {"plate": 48, "shell": 32, "solid": 24}  # elements along the shorter side
-MODELS, MESHES, SCENES = tuple(TRUTH), (8, 16), 40
+TRUE_ELEMENTS = {"plate": 48, "shell": 32, "solid": 24}  # elements along the shorter side
+MODELS, MESHES, SCENES = tuple(TRUE_ELEMENTS), (8, 16), 40
 MASSES, BY_KIND = 9, 12  # of the lattice, elements of the shell
 TOLERANCES, COMPARED = (0.005, 0.01, 0.02, 0.05), 20
 LEAST = 1e-6
@@ -50,7 +50,7 @@ Row = dict[tuple[str, int], Solved]  # of a scene, by model and elements
 
 def bars(
     store: Store, count: int = SCENES, models: Sequence[str] = MODELS, meshes: Sequence[int] = MESHES,
-    truth: Mapping[str, int] = TRUTH, seed: int = SEED, **how: Unpack[CampaignKeywords],
+    truth: Mapping[str, int] = TRUE_ELEMENTS, seed: int = SEED, **how: Unpack[CampaignKeywords],
 ) -> tuple[list[Promise], dict[str, str]]:  # fmt: skip
     """Return the bars of the models on the meshes on `count` drawn scenes, and the replaced scenes with the
     reason. truth: elements of the truth by model."""
@@ -68,7 +68,7 @@ def bars(
 
 def by_kind(
     store: Store, count: int = SCENES, kinds: Sequence[str] = KINDS, elements: int = BY_KIND,
-    truth: Mapping[str, int] = TRUTH, seed: int = SEED, **how: Unpack[CampaignKeywords],
+    truth: Mapping[str, int] = TRUE_ELEMENTS, seed: int = SEED, **how: Unpack[CampaignKeywords],
 ) -> tuple[list[Promise], dict[str, str]]:  # fmt: skip
     """Return bars of the shell and expected errors of the lattice on `count` drawn scenes, of the kinds in
     turn, and the replaced scenes with the reason. elements: of the shell; truth: elements of the truth."""
@@ -88,8 +88,8 @@ def by_kind(
 
 
 def expected(scene: dict[str, Any]) -> dict[str, Any]:
-    """Return the lattice's answer as `compare` has it, with the estimate or the reason why there is none; a
-    task."""
+    """Return the lattice's answer in the form of `compare`, with the expected error or the reason against
+    one; a task."""
     given = Scene.model_validate(scene)
     lattice = resolve(given, Lattice(MASSES))
     answer = solve(lattice)
@@ -145,7 +145,7 @@ def advice(scene: dict[str, Any], tolerance: float) -> dict[str, Any]:
 
 def advised(
     store: Store, count: int = SCENES, compared: int = COMPARED, tolerances: Sequence[float] = TOLERANCES,
-    truth: Mapping[str, int] = TRUTH, seed: int = SEED, **how: Unpack[CampaignKeywords],
+    truth: Mapping[str, int] = TRUE_ELEMENTS, seed: int = SEED, **how: Unpack[CampaignKeywords],
 ) -> tuple[list[Promise], dict[str, str]]:  # fmt: skip
     """Return the tolerances and errors of advice on `count` drawn scenes, and the replaced scenes with the
     reason. The first `compared` scenes also have its cost."""

@@ -25,4 +25,4 @@ def command(
         to (FILE): Write here; the package's own file unless given.
         suite (SUITE): This suite alone; the others' values stay.
     """
-    write_text(to or FILE, to_json(regenerate(console.tell, suite)))
+    write_text(to or FILE, to_json(regenerate(console.print_status, suite)))

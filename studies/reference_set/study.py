@@ -97,7 +97,7 @@ def cases() -> list[Case]:
     ]
 
 
-def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> dict[str, Any]:
+def regenerate(progress: Callable[[str], None] = print, suite: str | None = None) -> dict[str, Any]:
     """Return the reference set as plain data; with a suite's name the other suites' values stay."""
     makers = {"motion": motion, "modes": modes} | dict.fromkeys(AT_REST, statics)
     kept = {case["name"]: case for case in document()["cases"] if suite and case["suite"] != suite}
@@ -117,7 +117,7 @@ def regenerate(say: Callable[[str], None] = print, suite: str | None = None) -> 
                 **makers[case.suite](case),
             }
         )
-        say(f"{case.name}: {perf_counter() - started:.1f} s")
+        progress(f"{case.name}: {perf_counter() - started:.1f} s")
     made_with = document()["made_with"] if suite else {"sheetbench": version(), "machine": machine()}
     head = {"version": VERSION, "licence": LICENCE, "made_with": made_with}
     rounded: dict[str, Any] = plain({**head, "cases": computed, "standing": document()["standing"]})

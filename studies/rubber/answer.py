@@ -60,8 +60,8 @@ class Rubber(Answer):
 
 
 def measure(data: Path, block: bool, progress: Callable[[str], None]) -> Rubber:
-    """Fit the laws, pull, hang and blow up linear lattices; block: also let the block go. Raises BadInput for
-    a missing file."""
+    """Fit the laws, and compute the errors of linear lattices pulled, hung and inflated; block: also the
+    released block. Raises BadInput for a missing file."""
     progress("tensile tests")
     fits = curves(data)
     first = next(iter(fits.values())).law

@@ -1,4 +1,5 @@
-"""Clamped silicone block let go, with three loads: one damper, branches, E and loss factor of each run.
+"""Free vibration of a clamped silicone block with three loads: one damper or branches, E and loss factor of
+each run.
 
 Data: Dubied et al. 2022 (arXiv 2201.12560), srl-ethz/diffPD_sim2real, MIT: C3D files of 100 Hz. The tip is
 the mean of the first three markers, the base the mean of the others. A damped cosine through 2.5 s of a run

@@ -63,7 +63,7 @@ class Strip:
 
 @dataclass(frozen=True)
 class Square:
-    """Tops of a clamped square that is blown up: of the shell with its law, of a linear lattice."""
+    """Heights of an inflated clamped square: of the shell with its law and of a linear lattice."""
 
     pressure: Annotated[float, NUMBER(".3g", "p a/(E h)")]
     stretch: Annotated[float | None, PERCENT(".1f", "largest stretch")]
@@ -151,7 +151,7 @@ def hung(fit: Fit, stretch: float) -> float:
 
 
 def blown(fit: Fit) -> Iterator[Square]:
-    """Yield the top's height of a clamped square under pressures in both models, and the lattice's error."""
+    """Yield the height of a clamped square inflated by pressures in both models, and the lattice's error."""
     laws = {"law": fit.law, **fit.constants} if fit.law != "neo-hookean" else {"law": fit.law}
     rubber = Material.model_validate({**_material(fit).model_dump(exclude_none=True), **laws})
     sheet = Sheet(0.1, 0.1, 0.002)

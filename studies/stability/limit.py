@@ -33,7 +33,7 @@ def start(equations: System, u: np.ndarray) -> State:
 
 
 def noise(equations: System) -> np.ndarray:
-    """Return a random admissible displacement (n, 3) of 1e-6 of the layer distance."""
+    """Return a random admissible displacement (n, 3) [m] with components of 1e-6 layer distances."""
     free = np.random.default_rng(0).standard_normal(equations.moving_part.shape[1])
     return SMALL * equations.assembly.lattice.spacing[2] * equations.expand(free)
 

@@ -43,7 +43,7 @@ def command(
     names = _require_known("--scenes", scenes, transfer_scenes())
     sizes = list(GRIDS) if grids is None else _masses(grids)
     if train:
-        console.tell(f"{write_table()}: written")
+        console.print_status(f"{write_table()}: written")
         return
     with output.open() as out:
         with out.campaign(campaign) as run:

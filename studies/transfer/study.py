@@ -31,7 +31,7 @@ from sheetbench.scenes import Scene
 from studies.transfer.answer import Transfer
 from studies.transfer.drawn_scenes import drawn_sheets
 from studies.transfer.scenes import HELD_OUT, LINEAR, MODAL, TRAINING, transfer_scenes
-from studies.transfer.tasks import FINE, points
+from studies.transfer.tasks import FINEST, points
 
 # not run: `consistent` has their moduli
 OTHERS = (
@@ -145,7 +145,7 @@ class _Study:
             for method in (m for m in self.methods if m not in FITTED):
                 fields = [self._lattice(name, method, (n, n)) for n in self.grids]
                 finest = self._lattice(name, method, (n, n), "homogenised", elements=self.elements)
-                limit = self._lattice(name, method, (FINE, FINE), "homogenised", elements=self.elements)
+                limit = self._lattice(name, method, (FINEST, FINEST), "homogenised", elements=self.elements)
                 yield {
                     "scene": name,
                     "method": method,

@@ -20,7 +20,7 @@ from sheetbench.scenes import Scene, Sheet
 
 POINTS = 5  # along each side
 FREQUENCIES = 3
-FINE = 4097  # masses a side of the grid whose moduli stand for cells → 0
+FINEST = 4097  # masses a side of the grid whose moduli stand for cells → 0
 
 
 def points(sheet: Sheet) -> np.ndarray:

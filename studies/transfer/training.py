@@ -70,7 +70,8 @@ class Trained:
 
 
 def bent_scenes() -> dict[str, Scene]:
-    """Return Habibi et al.'s sheet under 1/1000 of its weight, held seven ways, and with a corner force."""
+    """Return the scenes that bend: Habibi et al.'s sheet under 1/1000 of its weight, with seven kinds of
+    supports, and with a corner force."""
     feather = Gravity(acceleration=(0.0, 0.0, -9.81e-3))
     bent = {name: _scene(held, feather) for name, held in HELD.items()}
     force = PointLoad(at=(SIDE, SIDE), force=(0.0, 0.0, 1e-4))
@@ -81,7 +82,8 @@ def bent_scenes() -> dict[str, Scene]:
 
 
 def stretched_scenes() -> dict[str, Scene]:
-    """Return a third of the thickness under the whole weight, and the published model's bent edge."""
+    """Return the scenes that stretch: a sheet of a third of the thickness under its whole weight, and the
+    bent edge of the published model."""
     thin = {**SEED.sheet.model_dump(), "thickness": 0.001}
     stretched = {name: _scene(HELD[name], SEED.gravity).replace(sheet=thin) for name in STRETCHED}
     return {**stretched, "a bent edge": load("curved-edge")}

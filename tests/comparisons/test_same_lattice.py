@@ -129,7 +129,7 @@ def test_the_same_words_are_the_same_lattice(name):
 
 
 @pytest.mark.parametrize("name", [name for name in VERBS if name not in CHOSEN])
-def test_so_are_a_scene_s_own_springs(name):
+def test_every_verb_takes_a_scenes_own_springs(name):
     """Where nothing is named the scene's own [springs] are meant; in any case their grid is the usual one."""
     ask, words = VERBS[name]
     plain = sb.load(SCENE)

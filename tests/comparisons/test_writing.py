@@ -96,7 +96,7 @@ def test_a_folder_that_cannot_be_had_is_refused(tmp_path, monkeypatch):
     root = "the root of the file system; name a folder in it"
     device = "a device, pipe or socket is there: choose another name"
     for ask, place, said in (
-        (folder, tmp_path / "link", "a link to nothing is there"),
+        (folder, tmp_path / "link", "a broken link is there"),
         (folder, tmp_path / "file" / "under", "Not a directory"),
         (require_file, Path(os.devnull), device),
         *((folder, place, root) for place in ("/", "//", "/usr/..")),

@@ -140,7 +140,7 @@ def test_what_cannot_both_be_obeyed_is_refused(supports, actuators, said):
         make_scene(supports, *actuators)
 
 
-def test_what_can_both_be_obeyed_is_not():
+def test_compatible_supports_of_a_corner_are_accepted():
     make_scene((HINGE,), motion("x1", CORNERED, (0.0, 0.0, 0.4)))
     alike, sideways = Motion(**UP), Motion(time=(0.0, 1.0), displacement=(REST, (0.01, 0, 0)))
     make_scene((CLAMP.replace(motion=alike), Clamped(edge="y0", motion=alike)))

@@ -97,7 +97,7 @@ def test_a_references_tangent_is_symmetric_where_its_pressure_has_a_potential(su
         forces = structure.forces(state, 1.0)
         draw = np.random.default_rng(3).standard_normal(structure.unknowns)
         state = structure.advance(
-            state, forces, 1.0, draw * (1e-4 if model == "solid" else 0.02 * sheet.lever)
+            state, forces, 1.0, draw * (1e-4 if model == "solid" else 0.02 * sheet.longer_side)
         )
     matrix = structure.linearised(state, structure.forces(state, 1.0), 1.0, mixed=False)[0]
     rounding, flat = 1e-13 * abs(matrix).max(), sheet.shape(np.zeros(sheet.size), 1.0)

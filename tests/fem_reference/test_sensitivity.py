@@ -14,7 +14,7 @@ import fem_reference
 import lumped
 from fem_reference import sheets
 from fem_reference.discrete import tangent_planes
-from fem_reference.discrete.answer import traced
+from fem_reference.discrete.answer import trace_sheet
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.sensitivity import FIELD, SheetSensitivity
 from sheetbench.answers.solution import Status
@@ -125,7 +125,7 @@ def sampled(shape, points):
 
 def sensitivity(scene, model="shell", elements=3):
     division = sheets.division_of(scene, model, elements)
-    run = traced(division.sheet)
+    run = trace_sheet(division.sheet)
     assert run.path.load_factor == 1.0
     return SheetSensitivity(run.sheet, at_rest(run.sheet, run.path.state.q))
 
@@ -170,7 +170,7 @@ def test_all_derivatives_take_one_factorisation_and_no_solve(monkeypatch):
     scene, factored, factor = load("one-edge-clamped"), [], SheetSensitivity._factor
     answer = fem_reference.solve(scene, "shell", elements=4)
     monkeypatch.setattr(SheetSensitivity, "_factor", lambda *at: factored.append(at) or factor(*at))
-    monkeypatch.setattr("fem_reference.discrete.answer.traced", None)
+    monkeypatch.setattr("fem_reference.discrete.answer.trace_sheet", None)
     gradient = dict(answer.sensitivity().at_points(scene.probe_points()[-1:], np.eye(3)[2:]))
     assert len(gradient) >= 10 and len(factored) == 1
 

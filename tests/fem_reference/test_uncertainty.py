@@ -100,7 +100,7 @@ def test_what_the_meshes_miss_of_the_layer_is_in_the_bar():
     assert still < 1e-5  # a layer that is found on one mesh more than on another and changes nothing
 
 
-def test_rounding_is_no_evidence():
+def test_differences_of_rounding_show_no_order():
     answers = [np.array([[1.0, 1e-17 * k, 0.5]]) for k in (1, -3, 2)]
     found = estimate(answers, SIZES)
     assert found.trusted.all() and np.isnan(found.order).all() and np.isnan(found.overall_order)
@@ -114,12 +114,12 @@ def test_two_meshes_assume_order_2_and_factor_3():
 
 
 @pytest.mark.parametrize(("count", "sizes"), [(1, SIZES[:1]), (3, SIZES[::-1]), (3, SIZES[:2])])
-def test_misuse(count, sizes):
+def test_estimate_refuses_too_few_or_unordered_meshes(count, sizes):
     with pytest.raises(ValueError, match=r"meshes|rise"):
         estimate(made(2.0)[:count], sizes)
 
 
-def test_meshes():
+def test_coarser_meshes_have_three_quarters_and_half_the_elements():
     assert coarser(16) == [16, 12, 8] and coarser(2) == [2, 1] and coarser(1) == [1]
     assert coarser((16, 40)) == [(16, 40), (12, 30), (8, 20)]
 

@@ -3,6 +3,7 @@
 import cases
 import numpy as np
 import pytest
+from dynamic_cases import springs
 
 import fem_reference
 import lumped
@@ -17,7 +18,7 @@ from lumped.statics import faults
 from lumped.statics.solver import build_problem
 from sheetbench.answers.solution import Status
 from sheetbench.runs.record import width
-from sheetbench.runs.run import Run, Watch
+from sheetbench.runs.run import Run, SampleChecks
 from sheetbench.runs.schedule import Schedule
 from sheetbench.runs.store import MemoryStore
 from sheetbench.scenes import Curved, EdgeLoad
@@ -27,14 +28,10 @@ from studies.stability.scenes import sheet
 HEAVY = sheet(0.016, 1e3)  # statics stand a load number of a thousand, a fall from the flat sheet does not
 
 
-def calibrated(scene, n=5):
-    return lumped.calibrate(scene.sheet, scene.material, grid=(n, n))
-
-
 @pytest.fixture(scope="module")
 def problem():
     scene = sheet(0.016, 1.0)
-    return build_problem(scene, calibrated(scene))
+    return build_problem(scene, springs(scene))
 
 
 def pressed(share):
@@ -81,7 +78,7 @@ def test_the_first_state_with_a_fault_is_told_with_its_place(problem, make, stat
 @pytest.mark.parametrize("share", [1.0, 5.0, 50.0])
 def test_a_crushed_sheet_ends_in_a_status(share):
     scene = pressed(share)
-    solution = lumped.solve(scene, calibrated(scene))
+    solution = lumped.solve(scene, springs(scene))
     assert solution.status is Status.INVERTED
     assert "load factor" in solution.message and "refine" in solution.message and "x = " in solution.message
     truth = fem_reference.solve(scene, model="shell", elements=4)
@@ -92,9 +89,9 @@ def test_a_crushed_sheet_ends_in_a_status(share):
 
 @pytest.mark.parametrize("integrator", ["verlet", "generalised-alpha", "esdirk", "midpoint"])
 def test_a_sheet_that_falls_too_hard_ends_in_a_status(integrator):
-    springs = calibrated(HEAVY)
-    period = 1.0 / lumped.modes(HEAVY, springs, 1).frequencies[0]
-    run = lumped.simulate(HEAVY, springs, 2.0 * period, integrator=integrator)
+    calibrated = springs(HEAVY)
+    period = 1.0 / lumped.modes(HEAVY, calibrated, 1).frequencies[0]
+    run = lumped.simulate(HEAVY, calibrated, 2.0 * period, integrator=integrator)
     assert run.status in (Status.INVERTED, Status.DIVERGED)
     assert run.message.startswith("at ") and ("refine" in run.message or "smaller" in run.message)
     assert all(np.isfinite(u).all() for u in run.probes.values())
@@ -102,7 +99,7 @@ def test_a_sheet_that_falls_too_hard_ends_in_a_status(integrator):
 
 def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
     scene = sheet(0.016, 1.0)
-    equations = system(scene, calibrated(scene))
+    equations = system(scene, springs(scene))
     state = start(equations, np.zeros_like(problem.loads.dead))
     v = np.zeros_like(state.v)
     v[equations.assembly.lattice.columns()[2, 4, 0], 2] = 1.0
@@ -115,7 +112,7 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
     def checked(balance):
         kept = MemoryStore({"samples": (6,), "frames": (1, 3)})
         run = Run(Esdirk(equations, 1e-3), observer, Schedule(1, 1.0), kept, (), None)
-        run.watch = Watch(balance, lowest=balance, largest=3.0)
+        run.watch = SampleChecks(balance, lowest=balance, largest=3.0)
         fault = run._record_samples(moving)
         return run.samples, fault
 
@@ -131,7 +128,7 @@ def test_energy_from_nowhere_is_told_with_time_and_place(problem, monkeypatch):
 def test_a_stagnating_integrator_stops(monkeypatch):
     monkeypatch.setattr("sheetbench.runs.run.MOST_STEPS", 3)
     scene = sheet(0.016, 1.0)
-    run = lumped.simulate(scene, calibrated(scene), 1.0, integrator="generalised-alpha", every=0.5)
+    run = lumped.simulate(scene, springs(scene), 1.0, integrator="generalised-alpha", every=0.5)
     assert run.status is Status.STEP_LIMIT and "without reaching the next sample" in run.message
 
 
@@ -141,9 +138,9 @@ def test_the_shell_knows_its_mid_surface_s_stretch_and_its_inverted_elements():
     q = np.zeros(shell.size)
     shell.displacement(q)[:, 0] = 0.6 * shell.plan.nodes[:, 0]
     assert shell.shape(q, 1.0).stretch == pytest.approx(0.6, rel=1e-9)
-    assert not shell.inside_out(q)
+    assert not shell.inverted_element(q)
     shell.displacement(q)[:, 0] = -1.5 * shell.plan.nodes[:, 0]  # a mirror image of half the length
-    assert "use more elements" in shell.inside_out(q)
+    assert "use more elements" in shell.inverted_element(q)
 
 
 LIMIT, AT_LIMIT = 0.7645, -15.1e-3  # shares of the weight, and uz at P3 [m], by CalculiX

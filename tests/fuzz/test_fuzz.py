@@ -46,7 +46,7 @@ def tried(folder, drawn, trial, **how):
 
 
 @pytest.mark.parametrize("what", TRIALS)
-def test_it_ends_as_documented(tmp_path, what):
+def test_derandomised_trials_end_as_documented(tmp_path, what):
     examples, drawn, trial, _ = TRIALS[what]
     tried(tmp_path, drawn, trial, max_examples=examples, derandomize=True)()
 
@@ -55,6 +55,6 @@ def test_it_ends_as_documented(tmp_path, what):
 @pytest.mark.parametrize(
     ("what", "batch"), [(what, n) for what, (*_, batches) in TRIALS.items() if SEED for n in range(batches)]
 )
-def test_so_do_others(tmp_path, what, batch):
+def test_random_trials_end_as_documented(tmp_path, what, batch):
     _, drawn, trial, _ = TRIALS[what]
     seed(f"{SEED} {what} {batch}")(tried(tmp_path, drawn, trial, max_examples=BATCH))()

@@ -12,12 +12,12 @@ from sheetbench.scenes.objects import plan_mesh
 LONG = "reason " * 500
 
 
-def test_what_others_say_is_one_short_line():
+def test_foreign_messages_become_one_short_line():
     assert foreign(" a\n b\x1b ") == r"a b\x1b" and foreign(ValueError()) == "ValueError"
     assert foreign(LONG).startswith("reason reason") and len(foreign(LONG)) == FOREIGN
 
 
-def test_no_refusal_passes_on_more(tmp_path):
+def test_refusals_shorten_foreign_messages(tmp_path):
     (tmp_path / "mine.py").write_text(f"raise SystemExit({LONG!r})")
     (tmp_path / "scene.toml").write_text("a = 1\n" + "b" * 5000)
     (tmp_path / "m.csv").write_text(f"x,y,uz [{'m' * 5000}]\n0,0,1\n")

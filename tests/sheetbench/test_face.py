@@ -30,7 +30,7 @@ def test_importing_sheetbench_imports_nothing_heavy_and_a_scene_is_read_without_
     assert imported == "[]" and read == str(["numpy", "pydantic", "sheetbench.scenes"])
 
 
-def test_every_name_is_there():
+def test_public_names_exist_and_are_listed():
     for name in sb.__all__:
         assert getattr(sb, name) is not None
     assert [name for name in dir(sb) if not name.startswith("__")] == sorted(sb.__all__)

@@ -312,7 +312,7 @@ def numbers():
 
 
 @pytest.mark.nightly  # half a minute of Python
-def test_they_give_what_compiled_ones_do():
+def test_uncompiled_kernels_give_equal_numbers():
     ran = python("-c", f"{UNCOMPILED}\nprint(json.dumps(numbers()))", NUMBA_DISABLE_JIT="1")
     assert ran.returncode == 0, ran.stderr[-2000:]
     here: dict[str, Any] = {}

@@ -95,7 +95,7 @@ def test_the_stored_displacements_are_the_lattices(name):
 
 
 def test_the_command_writes_what_it_counted(tmp_path, capsys, in_process, monkeypatch):
-    monkeypatch.setitem(study.TRUTH, "plate", 20)
+    monkeypatch.setitem(study.TRUE_ELEMENTS, "plate", 20)
     words = ["study", "promises", "--part", "bars", "--scenes", "1", "--model", "plate", "--json"]
     with pytest.raises(SystemExit) as caught:
         main([*words, "--out", str(tmp_path)])

@@ -11,7 +11,7 @@ from studies.reference_set import study as regenerate
 from studies.reference_set.archive import archive
 
 
-def test_one_command_makes_it(monkeypatch):
+def test_one_command_computes_the_reference_set(monkeypatch):
     """On coarse meshes and one case of each suite, with the keys and cases of the file."""
     names = ("thick", "corner-struck", "modes-one-edge", "quarter-turn")
     chosen = [case for case in regenerate.cases() if case.name in names]

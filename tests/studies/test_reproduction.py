@@ -24,7 +24,7 @@ from studies.reproduction.study import Reproduction
 
 
 @pytest.fixture(scope="module")
-def test_1():
+def answer_1():
     return answer(1, 0, 2)
 
 
@@ -47,10 +47,10 @@ def test_a_misprint_is_left_out_and_the_axes_are_the_scenes():
     assert np.isfinite(model).all() and np.isfinite(published(2, "experiment")).all()
 
 
-def test_the_tables_hold_what_was_published_and_what_we_answer(test_1):
-    assert [s.model for s in test_1.comparison.solutions] == ["lumped", "shell", "k550-lz3", "k550-lz17"]
-    assert test_1.comparison.solutions[2].settings["weights"] == "full"
-    found = Reproduction(("tables",), 2, answers=(test_1,))
+def test_the_tables_hold_what_was_published_and_what_we_answer(answer_1):
+    assert [s.model for s in answer_1.comparison.solutions] == ["lumped", "shell", "k550-lz3", "k550-lz17"]
+    assert answer_1.comparison.solutions[2].settings["weights"] == "full"
+    found = Reproduction(("tables",), 2, answers=(answer_1,))
     document = found.document()
     assert {"parts", "inputs", "known_faults", "findings", "tests"} == set(document)
     assert document["findings"][0]["finding"].startswith("The lattice is ")
@@ -68,10 +68,10 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(test_1):
     ]
 
 
-def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(test_1):
-    *others, last = test_1.comparison.solutions
+def test_a_published_lattice_without_an_answer_is_a_complaint_and_no_failure(answer_1):
+    *others, last = answer_1.comparison.solutions
     solutions = (*others, replace(last, status=Status.UNSTABLE))
-    fallen = replace(test_1, comparison=replace(test_1.comparison, solutions=solutions))
+    fallen = replace(answer_1, comparison=replace(answer_1.comparison, solutions=solutions))
     found = Reproduction(("tables",), 2, answers=(fallen,))
     assert found.succeeded
     assert [said.partition(": ")[0] for said in found.report().complaints] == ["Test 1, k550-lz17"]

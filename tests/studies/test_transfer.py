@@ -56,7 +56,7 @@ def test_leave_one_out(study):
     assert max(row["error"] for row in found.left_out) < 0.03
 
 
-def test_command(tmp_path, in_process, capsys):
+def test_command_writes_the_errors_of_the_chosen_methods(tmp_path, in_process, capsys):
     arguments = ["--methods", "uniform", "--scenes", "two-edges-clamped", "--grids", "5,9", "--elements", "4"]
     arguments += ["--part", "static", "--workers", "1", "--json", "--out", str(tmp_path)]
     assert run("study", "transfer", *arguments) == 0

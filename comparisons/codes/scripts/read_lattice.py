@@ -134,7 +134,7 @@ def stiffness(lattice, along, shared, u, force, h):
 
 
 def part_of(lattice, along, part, share):
-    """Return the lattice with parts of its natural state and of the stiffness of contact."""
+    """Return the lattice with fractions of its natural state and of its contact stiffness."""
     partial = {**lattice, "contact_values": lattice["contact_values"] * np.append(np.ones(9), share)}
     rest = lattice["positions"]
     flat = {"link_rest_length": np.linalg.norm(along["link"] @ rest, axis=1)}

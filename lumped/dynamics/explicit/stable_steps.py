@@ -22,7 +22,7 @@ from lumped.dynamics.system import System
 
 Pair = tuple[Any, Any]  # place and velocity
 TRIED, MODES = 4000, 64  # numbers of steps and of frequencies that are examined
-FOREVER = 1e9  # s: every history has its last value
+LATE_TIME = 1e9  # s: every history has its last value
 
 
 def symplectic_euler(x: Any, v: Any, h: Any, acceleration: Callable[[Any, Any], Any]) -> Pair:
@@ -69,7 +69,7 @@ class StableSteps:
 def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) -> StableSteps:
     """Return the stable steps of a system with the loop's masses; shapes: displacements (size, 3) [m] of the
     motion's extremes; lowest: natural frequency [Hz]."""
-    limits = [step_limit(system, u, FOREVER) for u in shapes]
+    limits = [step_limit(system, u, LATE_TIME) for u in shapes]
     highest = max(limit.frequency for limit in limits)
     resistance = max(2.0 * limit.damping_ratio * limit.frequency for limit in limits)
     proportional, safety = system.damping.proportional, TOUCHING if system.contacts else SAFETY
@@ -80,9 +80,9 @@ def stable_steps(system: System, shapes: Iterable[np.ndarray], lowest: float) ->
 
 
 def limit_of(loop: str, frequency: float, resistance: float = 0.0, rate: float | None = 0.0) -> float:
-    """Return the largest stable step [s] of a loop for all frequencies up to `frequency` [rad/s]; resistance:
-    damping [1/s] at the highest; rate: part of it proportional to masses, or None for damping that is not
-    proportional, up to `resistance` at every frequency."""
+    """Return the largest step [s] at which a time loop is stable for all frequencies up to `frequency`
+    [rad/s]. resistance: damping rate [1/s] at the highest frequency; rate: its mass-proportional part, or
+    None if every frequency may have any damping up to `resistance`."""
     shares = np.linspace(0.0, 1.0, MODES + 1)[1:]
     omega, damping = frequency * shares, np.zeros(MODES)
     if rate is not None:

@@ -107,7 +107,7 @@ def soften_contacts(system: System) -> None:
         springs = system.assembly.tangent(rest)
         squared = _largest_eigenvalue(system, springs)
         for one in system.contacts:
-            one.move_freely(system.lattice_mass, squared)
+            one.set_motion_penalty(system.lattice_mass, squared)
 
 
 def _largest_eigenvalue(system: System, blocks: np.ndarray) -> float:

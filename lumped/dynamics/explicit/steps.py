@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lumped.pressure import add_couples, add_surface_forces
-from lumped.springs.packed_forces import THREE, at_places, average, share_out
+from lumped.springs.packed_forces import THREE, at_places, average, distribute_over_layers
 from lumped.springs.packing import Packing, Scratch
 from lumped.springs.tiles import NUMBA_FALSE, NUMBA_TRUE, OPTIONS
 from sheetbench.numerics.aliasing import zeros
@@ -188,7 +188,7 @@ def add_loads(arrays: ExplicitArrays, factors: np.ndarray, u: np.ndarray, load: 
         if len(pressure):
             average(packing, displaced)
             add_surface_forces(x, loads.cells, pressure, following)
-            share_out(packing, load)
+            distribute_over_layers(packing, load)
 
 
 @njit(**OPTIONS)

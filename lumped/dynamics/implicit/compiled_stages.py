@@ -32,10 +32,11 @@ class Stages(NamedTuple):
 
 
 class Step(NamedTuple):
-    """Common data of a step's stages: its length [s]; coefficients of velocities and accelerations, and of
-    the guess of an acceleration, (s, s); c₁ and c₂ of the equation; differences of the supports' places from
-    the places by the stages' velocities, (s, n, 3) [m], and of their velocities from the start's, (s, n, 3)
-    [m/s], or both empty; loads (s, n, 3), or (1, n, 3) if constant [N]."""
+    """Common data of a step's stages. length: [s]; weights: coefficients (s, s) of velocities and
+    accelerations; guesses: (s, s) of an acceleration's guess; damping_coefficient, mass_coefficient: c₁ and
+    c₂ of the equation; shifts: supports' displacement beyond that by the stages' velocities, (s, n, 3) [m];
+    turns: their velocities less the start's, (s, n, 3) [m/s], both empty without moving supports; loads: (s,
+    n, 3), or (1, n, 3) if constant [N]."""
 
     length: float
     weights: np.ndarray
@@ -57,8 +58,9 @@ def solve_stages(
     arrays: Arrays,
     factors: np.ndarray,
 ) -> tuple[bool, int, int, int]:
-    """Solve the stages from `first` on, which goes on with `remaining` corrections unless 0. Return whether
-    all are solved, else the unsolved stage and its remaining corrections; and the number of corrections."""
+    """Solve the stages from `first` on. remaining: corrections left for an interrupted first stage, 0 to
+    begin it. Return whether all are solved, else the unsolved stage and its remaining corrections; and the
+    number of corrections."""
     made, by = 0, (step.mass_coefficient, step.damping_coefficient)
     bases_u, bases_v = arrays.base_u, arrays.base_v
     base_u, base_v = bases_u.reshape(-1), bases_v.reshape(-1)

@@ -33,7 +33,7 @@ from sheetbench.numerics.time.method import Advance
 from sheetbench.runs.schedule import SAMPLES_PER_CHECKPOINT, require_error
 
 ERROR = 3e-5  # of a step
-FORETOLD = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
+LINEAR_SHARE = 0.1  # share of the displacement at rest, linear, that counts as reached at the start
 LEAST = 1e-6  # of the sheet's side: no error is asked to be smaller beside it
 ENERGY = 10.0  # of a step that touches something, times its error relative to the largest: losses add up
 FIRST = 0.05  # first step over the time in which the first acceleration goes as far
@@ -118,8 +118,8 @@ class Esdirk(Integrator):
         return min(self._error, ERROR) * self._largest
 
     def _set_first_step(self, state: State) -> None:
-        """Set the first step [s] and the displacement that errors are relative to before any motion:
-        fractions of the time and distance to equilibrium if the lattice were linear."""
+        """Set the first step [s], and the scale of the errors before any motion: fractions of the time and
+        distance in which a linear lattice would reach equilibrium."""
         system, still = self.system.for_step(state), np.zeros_like(state.u)
         problem = system.problem
         force = system.unbalanced(state.u, still, state.time)
@@ -132,7 +132,7 @@ class Esdirk(Integrator):
         fastest = float(np.abs(system.accelerate(force)).max())
         if goal > 0.0:
             self.control.step = self._first = min(self.control.step, FIRST * np.sqrt(goal / fastest))
-        self._largest = max(FORETOLD * goal, LEAST * problem.size, float(np.abs(state.u).max()))
+        self._largest = max(LINEAR_SHARE * goal, LEAST * problem.size, float(np.abs(state.u).max()))
 
     def _from_kink(self, state: State, at_most: float) -> tuple[State, float]:
         """Return the state with its acceleration just after its time, and the largest step [s] before the
@@ -222,12 +222,12 @@ class Esdirk(Integrator):
         return Advance(end, float(taken), float(put_in))
 
     def _power(self, state: State) -> np.ndarray:
-        """Return the power [W] that dampers take and the power put in, from a state on."""
+        """Return the power [W] that dampers dissipate and the power supplied, just after a state's time."""
         return np.array([self.system.power(state), self._power_input(state)])
 
     def _power_input(self, stage: State, before: bool = False) -> float:
-        """Return the power [W] put in by moving supports, without the acceleration of their own masses, and
-        by loads without a potential, from a moment on, or until then."""
+        """Return the power [W] supplied by moving supports, without the acceleration of their own masses, and
+        by loads without a potential; before: just before the stage's time, else just after it."""
         system, motion, put_in = self.system, self.system.prescribed, 0.0
         if motion.moving:
             put_in += float(np.sum(system.exerted(stage) * motion.rate(stage.time, before=before)))

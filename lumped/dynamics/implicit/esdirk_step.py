@@ -23,7 +23,7 @@ from sheetbench.numerics.reduced_system import SingularMatrixError
 from sheetbench.numerics.time.method import StepFailed
 
 POWERS = np.arange(len(CUMULATIVE))
-CLEAR = 0.1  # of the excess energy allowed, up to which the middle's speaks for all samples of a step
+SMALL = 0.1  # of the excess energy allowed, up to which the middle's speaks for all samples of a step
 
 
 class EsdirkStep:
@@ -92,7 +92,7 @@ class EsdirkStep:
             return newton.excess(inside[i], State(float(times[i]), u[i], v[i], a[i]), by)
 
         # another sample had six times the excess of the one next to the middle
-        for i in range(len(times) - reaches_end) if excess(middle) > CLEAR * enough else ():
+        for i in range(len(times) - reaches_end) if excess(middle) > SMALL * enough else ():
             if excess(i) <= enough:
                 continue
             base = u[i] - a[i] / c1**2, v[i] - a[i] / c1

@@ -145,9 +145,9 @@ class Newton:
         return problem.expand(solution)
 
     def solve_stages(self, step: Step, stages: Stages, tolerance: float | None) -> bool:
-        """Fill the tables of a step's stages, which hold its start, compiled; False where that cannot be
-        done, as where the tangent is not positive definite. tolerance [m]: as in `solve_equation`. Raises
-        StepFailed."""
+        """Solve a step's stages in compiled code, from the start in their tables; return False if that is not
+        possible, for instance because the tangent is not positive definite. tolerance [m]: as in
+        `solve_equation`. Raises StepFailed."""
         compiled, first, left = self._compiled, 1, 0
         limits, self.made = self._limits(tolerance), 0
         if compiled is None or not self.can_reuse_factors(step.mass_coefficient):
@@ -176,14 +176,15 @@ class Newton:
         return taken is not None and abs(mass_coefficient / taken - 1.0) < REUSE_FACTORS_WITHIN
 
     def renew(self, equation: StepEquation, u: np.ndarray) -> None:
-        """Make the factors for an equation and those like it anew, at u. Raises SingularMatrixError."""
+        """Factorise the matrix of an equation at u, for this equation and similar ones. Raises
+        SingularMatrixError."""
         if not self._factorise(equation, u):
             self._factor = self._system.problem.system.factor(equation.blocks(u))
             self._key = equation.by
 
     def _factorise(self, equation: StepEquation, u: np.ndarray) -> bool:
-        """Make the compiled iteration's factors at u; False where there is none, or the tangent is not
-        positive definite."""
+        """Factorise the compiled iteration's matrix at u; return False without a compiled iteration, or if
+        the matrix is not positive definite."""
         self._factored = None
         if self._compiled is not None:
             band = self._compiled.band

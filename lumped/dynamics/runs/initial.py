@@ -11,7 +11,7 @@ from lumped.lattice import Weights
 from lumped.statics.solver import build_problem, stable_equilibrium
 from sheetbench.errors import NoEquilibrium
 from sheetbench.scenes import Scene
-from sheetbench.scenes.meaning.motion import NO_START, at_start, let_go, starts_flat
+from sheetbench.scenes.meaning.motion import NO_START, at_start, starts_flat, without_held_loads
 
 
 def in_motion(scene: Scene, calibration: Calibration, weights: Weights = "tributary") -> tuple[System, State]:
@@ -38,7 +38,7 @@ def in_motion(scene: Scene, calibration: Calibration, weights: Weights = "tribut
     NoEquilibrium
         If the motion starts from an equilibrium and there is no stable one.
     """
-    moving = let_go(scene)
+    moving = without_held_loads(scene)
     system = System(moving, build_problem(moving, calibration, weights))
     soften_contacts(system)
     return system, initial_state(system, calibration, weights, scene)

@@ -76,7 +76,7 @@ class LatticeObserver:
         return strains, fault
 
     def beyond(self, stretch: float) -> str:
-        """Return a clause if a stretch is beyond the range of the law of strain, else ""."""
+        """Return a clause if a stretch exceeds the range of the law of strain, else ""."""
         system = self._system
         return "" if system.assembly.any_strain else outside_model(system.scene, stretch, STRETCH)
 
@@ -85,7 +85,7 @@ class LatticeObserver:
         return fastest(self._system.assembly.lattice, samples.v[i])
 
     def frame(self, samples: LatticeSamples, i: int) -> np.ndarray:
-        """Return the drawn rows of a displacement."""
+        """Return the rows of sample i's displacement that pictures show."""
         return samples.u[i][self._drawn]
 
     def rows(self, samples: LatticeSamples) -> np.ndarray:

@@ -50,7 +50,7 @@ def plan_run(
         if step is None and duration / length > MOST_DEFAULT_STEPS:
             raise BadInput(
                 f"integrator = '{integrator}': would take {duration / length:.1e} steps, its stability limit "
-                f"being {limit.describe()}; choose an implicit integrator, or give a step to insist"
+                f"being {limit.describe()}; choose an implicit integrator, or give a step"
             )
     if duration / length > MOST_STEPS:
         raise BadInput(

@@ -36,7 +36,8 @@ Place = tuple[State, Forces, float]  # state, forces and load factor at the star
 
 
 def _reuse(path: Path[State, Forces], at: Place[State, Forces], factor: Factor) -> Correction | None:
-    """Return the correction with old factors, None if the right-hand side depends on the tangent."""
+    """Return the correction computed with old factors, or None if the right-hand side depends on the
+    tangent."""
     rows = path.structure.rows(*at)
     return None if rows is None else path.structure.solved(*at, factor, rows)
 
@@ -90,7 +91,7 @@ def newton(path: Path[State, Forces], first: Start[State], close: float = 0.0) -
             if not isfinite(relative):
                 raise LoadStepFailed(Status.NON_FINITE, "a number overflowed", first.length)
             if relative <= close or run.at_rest(imbalance, relative):
-                return run.state, run.alike()
+                return run.state, run.reusable_factor()
             if run.stalls():
                 raise LoadStepFailed(Status.STEP_LIMIT, "the corrections do not shrink", first.length)
             if path.factorisations >= path.limit:
@@ -117,13 +118,14 @@ class _Newton(Generic[State, Forces]):
         self.last_imbalance, self.reused_last = np.inf, False
         self.distance = self.stress_error = 0.0
 
-    def alike(self) -> Factor | None:
-        """Return the last factors if the tangent has not changed noticeably since."""
+    def reusable_factor(self) -> Factor | None:
+        """Return the last factors if the tangent has not changed noticeably since, else None."""
         unchanged = self.structure.linear or max(self.distance, self.stress_error) <= self.path.alike
         return self.factor if unchanged else None
 
     def at_rest(self, imbalance: float, relative: float) -> bool:
-        """Return whether the residual is in tolerance or rounding, and prescribed displacements are met."""
+        """Return whether the residual is within the tolerance or rounding, and the prescribed displacements
+        are reached."""
         limits, last = self.path.limits, self.lengths[-1]
         rounded = self.works[-1] <= VANISHING * self.works[0] and imbalance > 0.5 * self.last_imbalance
         settled = relative <= limits.tolerance or rounded
@@ -137,11 +139,11 @@ class _Newton(Generic[State, Forces]):
         return len(lengths) > back and lengths[-1] >= max(lengths[-1 - back], share * lengths[-2])
 
     def correct(self, forces: Forces, imbalance: float, relative: float) -> None:
-        """Take a step: with the last factors, by one compiled call, or with the assembled tangent."""
+        """Take a Newton step: with the last factors, by one compiled call, or with the assembled tangent."""
         at, last = (self.state, forces, self.target), self.lengths[-1]
         refined = relative <= self.path.limits.refine_below
         stale = self.reused_last and imbalance > STALE * self.last_imbalance
-        near = self.alike() if refined and not stale else None
+        near = self.reusable_factor() if refined and not stale else None
         reused = None if near is None else _reuse(self.path, at, near)
         step = reused or self.structure.correct(*at, self.path.count)
         step = step or self._correct_assembled(at, not refined)

@@ -30,15 +30,15 @@ from sheetbench.numerics.direct import Factor, SingularMatrixError
 FACTORISATIONS = 400  # of one relaxation; a shell folds over a ball in 320 to 370
 CORRECTIONS = 8  # of one step
 STEP_TOLERANCE = 0.1  # residual at the end of a step, relative to the residual at its start
-ENOUGH = 1e-6  # or relative to the forces in balance
-SHRINKING = 0.7  # a step fails if corrections after the second shrink by less
+REST_TOLERANCE = 1e-6  # or relative to the forces in balance
+LARGEST_RATIO = 0.7  # a step fails if corrections after the second shrink by less
 LONGEST = 1.0  # correction, in sizes of the sheet
 LESS_DRAG_UP_TO = 4  # factorisations of a step after which drag falls
 FASTER, CAREFUL = 4.0, 1.5  # factors by which drag falls: usually, and within CAUTION steps of a failure
 CAUTION = 3
 FIRST_DRAG = 1.0  # σ
 STIFFEST = 1e9  # σ beyond which nothing moves
-NEARLY = 1e-5  # residual, relative to the forces in balance, below which Newton's method takes over
+NEWTON_BELOW = 1e-5  # residual, relative to the forces in balance, below which Newton's method takes over
 FURTHER = 0.1  # factor by which the residual must fall after a failure of Newton's method
 ROUNDING = 1e-12  # of the energies in balance
 PUSH, SMALLEST_PUSH = 1e-2, 1e-6  # displacements from a saddle, in sizes of the sheet
@@ -73,7 +73,7 @@ class _Creep(Generic[State, Forces]):
         self.first = structure.potential(self.state, load_factor)[0]
         self.energy = np.inf  # nothing to compare with: supports may move in the first step
         self.drag, self.careful, self.length = FIRST_DRAG, 0, 0.0
-        self.nearly = NEARLY
+        self.nearly = NEWTON_BELOW
 
     def end(self) -> State:
         """Return the stable equilibrium. Raises LoadStepFailed, SingularMatrixError."""
@@ -93,7 +93,7 @@ class _Creep(Generic[State, Forces]):
                 self._leave_saddle(state)
 
     def _step(self) -> None:
-        """Take an accepted step, with as much drag as it needs. Raises LoadStepFailed."""
+        """Take one accepted step, with the drag increased until it is accepted. Raises LoadStepFailed."""
         while True:
             before = self.path.factorisations
             state = self._creep_step()
@@ -101,7 +101,7 @@ class _Creep(Generic[State, Forces]):
                 break
             self.drag, self.careful = FASTER * self.drag, CAUTION
             if self.drag > STIFFEST:
-                raise LoadStepFailed(Status.STEP_LIMIT, "the relaxation does not go on", 0.0)
+                raise LoadStepFailed(Status.STEP_LIMIT, "the relaxation makes no progress", 0.0)
         self.length = self.structure.length(self.state, state)
         self.state = self.structure.unextrapolated(state)
         self.careful -= 1
@@ -118,7 +118,7 @@ class _Creep(Generic[State, Forces]):
 
     def _creep_step(self) -> State | None:
         """Return the end of a step of creep, None if its iterations fail."""
-        structure = self.structure.dragged(self.state, self.load_factor, self.drag)
+        structure = self.structure.creep_step(self.state, self.load_factor, self.drag)
         state, lengths, first = self.state, list[float](), np.inf
         for k in range(CORRECTIONS + 1):
             forces = structure.forces(state, self.load_factor)
@@ -127,10 +127,10 @@ class _Creep(Generic[State, Forces]):
             if not np.isfinite(relative):
                 return None
             first = relative if k == 0 else first
-            settled = relative <= max(STEP_TOLERANCE * first, ENOUGH)
+            settled = relative <= max(STEP_TOLERANCE * first, REST_TOLERANCE)
             if k > 0 and settled and structure.gap(state, self.load_factor) <= self.path.limits.tolerance:
                 return state
-            if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > SHRINKING * lengths[-2]):
+            if k == CORRECTIONS or (len(lengths) > 2 and lengths[-1] > LARGEST_RATIO * lengths[-2]):
                 return None
             matrix, rows = structure.linearised(state, forces, self.load_factor)
             factor = self._factor_matrix(matrix)
@@ -160,10 +160,10 @@ class _Creep(Generic[State, Forces]):
         structure, drag = self.structure, FIRST_DRAG
         forces = structure.forces(saddle, self.load_factor)
         tangent, _ = structure.linearised(saddle, forces, self.load_factor, mixed=False)
-        factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
+        factor = self._factor(structure.creep_step(saddle, self.load_factor, drag), saddle)
         while factor.negative:
             drag *= FASTER
-            factor = self._factor(structure.dragged(saddle, self.load_factor, drag), saddle)
+            factor = self._factor(structure.creep_step(saddle, self.load_factor, drag), saddle)
         mode = np.random.default_rng(0).uniform(-1.0, 1.0, structure.unknowns)
         for _ in range(INVERSE_STEPS):
             mode = factor.solve((factor.matrix @ mode - tangent @ mode) / drag)

@@ -1,4 +1,4 @@
-"""An equilibrium with penalties of obstacles, soft first and then stiff.
+"""Equilibria in contact: penalties of obstacles, raised from a soft start to their full stiffness.
 
 Along a load path with stiff penalties one row of points after another comes into contact, at a few
 corrections each: Newton's method on a quadratic penalty is the primal–dual active-set method, and bending
@@ -35,41 +35,43 @@ NARROW = 0.8  # share of its area that a patch along a line or around a point ha
 POINT, LINE = 1 / 2, 2 / 3  # powers of 1/k that depths of patches are like
 REACH = 0.1  # largest displacement of the first linear step; longer ones lead around a round obstacle
 SOFT_STEPS, STAGES, CELL_STAGES = 0.05, 0.01, 3e-3  # residuals at which load steps and early stages end
-PATIENT = 80  # corrections of a stage, which first shrink slowly: a narrow patch rolls by its width in each
-WAY = 0.25  # of the radius, by which obstacles and supports come in between descents
-FAR = 10.0  # sizes from rest and beyond all prescribed motions: out of reach
+STAGE_CORRECTIONS = 80  # they first shrink slowly: a narrow patch rolls by its width in each
+STEP_SHARE = 0.25  # of the radius, by which obstacles and supports come in between descents
+OUT_OF_REACH = 10.0  # sizes from rest and beyond all prescribed motions: out of reach
 DEPTH = 0.005  # of the size, or of a fifth of the radius: that soft penalties let the load sink in
 
 
-def soften(penalties: Sequence[Any], share: float) -> None:
-    """Give penalties a share of their stiffness, 1 for all of it."""
+def set_stiffness_share(penalties: Sequence[Any], share: float) -> None:
+    """Set the acting share of the penalties' stiffness, from 0 to 1."""
     for one in penalties:
         one.share = share
 
 
-def reaches(structure: Structure[State, Forces]) -> bool:
-    """Return whether an obstacle is near enough for a structure to touch it."""
+def within_reach(structure: Structure[State, Forces]) -> bool:
+    """Return whether an obstacle lies within reach of a structure."""
     rest = structure.rest()
-    at, reach = structure.configuration(rest, 1.0), structure.size * (FAR + structure.gap(rest, 1.0))
+    at, reach = structure.configuration(rest, 1.0), structure.size * (OUT_OF_REACH + structure.gap(rest, 1.0))
     ways = (np.linalg.norm(one.obstacle.place() - one.obstacle.position) for one in structure.contacts)
     both = zip(structure.contacts, ways, strict=True)
     return any(one.near(at).depth.max() > -reach - way for one, way in both)
 
 
-def require_way(path: Path[State, Forces], state: State, load_factor: float) -> None:
-    """Raise LoadStepFailed if the way from a path's last equilibrium leads through an obstacle."""
+def require_free_step(path: Path[State, Forces], state: State, load_factor: float) -> None:
+    """Raise LoadStepFailed if a straight step from a path's last equilibrium would pass through an
+    obstacle."""
     structure = path.structure
     before = structure.configuration(path.state, path.load_factor)
     after = structure.configuration(state, load_factor)
-    if any(one.near(after).share_of_way(one.near(before)) < 1.0 for one in structure.contacts):
+    if any(one.near(after).free_share(one.near(before)) < 1.0 for one in structure.contacts):
         raise LoadStepFailed(Status.STEP_LIMIT, "a step led through an obstacle", path.limits.first_reach)
 
 
-def softest(structure: Structure[State, Forces]) -> float:
-    """Set the penalties to 0 and return the first share of their stiffness: points are DEPTH deep with it
-    under the load, or a pressure that bends a plate of this size by the prescribed motion (8 D per size⁴)."""
+def first_stiffness_share(structure: Structure[State, Forces]) -> float:
+    """Set the penalties to 0, and return the share of their stiffness to begin with: the penetration is DEPTH
+    under the load, or under the pressure that bends a plate of this size by the prescribed motion (8 D per
+    size⁴)."""
     shares, size = [1.0], structure.size
-    soften(structure.contacts, 0.0)
+    set_stiffness_share(structure.contacts, 0.0)
     force, gap = structure.loading(), size * structure.gap(structure.rest(), 1.0)
     for one in structure.contacts:
         bending, body = float((one.full * one.thickness**4).max()) / 12.0, one.obstacle
@@ -84,8 +86,8 @@ def trace_with_penalties(
     trace: Callable[[Path[State, Forces]], Fault | None],
     near: Start[State] | None = None,
 ) -> Fault | None:
-    """Lead a path from rest to the equilibrium at full load with stiff penalties; return the fault of an
-    earlier end, else None. trace: traces a path with given penalties; near: a start for a descent."""
+    """Trace a path from rest to the equilibrium at full load with stiff penalties; return the fault if it
+    ends earlier, else None. trace: traces a path with given penalties; near: a start for a descent."""
     structure, limits, contacts = path.structure, path.limits, path.structure.contacts
     down = path.settle if structure.symmetric else None
     if near is not None and down is not None:
@@ -93,9 +95,9 @@ def trace_with_penalties(
         with suppress(LoadStepFailed):
             path.put(down(path, 1.0), 1.0)
             return path.inspect(path)
-    share = softest(structure)
+    share = first_stiffness_share(structure)
     while True:  # without a `settle`, a share that fails is too soft
-        soften(contacts, share)
+        set_stiffness_share(contacts, share)
         planes = all(math.isinf(one.obstacle.radius) for one in contacts)
         reach = limits.first_reach if planes else min(limits.first_reach, REACH)
         path.begin(replace(limits, careful_after=limits.in_all, tolerance=SOFT_STEPS, first_reach=reach))
@@ -107,17 +109,19 @@ def trace_with_penalties(
         if ended is None or share == 1.0 or down is not None:
             break
         share = min(1.0, 30.0 * share)
-    soften(contacts, 1.0)
+    set_stiffness_share(contacts, 1.0)
     if ended is None or down is None:
         return ended
     path.begin(limits)
     gap, bodies = structure.size * structure.gap(path.state, 1.0), [one.obstacle for one in contacts]
-    ways = ((gap + np.linalg.norm(body.place() - body.position)) / (WAY * body.radius) for body in bodies)
+    ways = (
+        (gap + np.linalg.norm(body.place() - body.position)) / (STEP_SHARE * body.radius) for body in bodies
+    )
     for load_factor in np.linspace(0.0, 1.0, max(1, *map(math.ceil, ways)) + 1)[1:].tolist():
         path.limit = path.factorisations + limits.factorisations
         try:
             state = down(path, load_factor)
-            require_way(path, state, load_factor)
+            require_free_step(path, state, load_factor)
             path.put(state, load_factor)
         except LoadStepFailed as failure:
             return Fault(failure.status, f"descent with the full stiffness of contact: {failure}")
@@ -127,8 +131,8 @@ def trace_with_penalties(
 
 
 def touched(path: Path[State, Forces]) -> tuple[float, float]:
-    """Return the area in contact [m²], and the contacts' share of the forces in balance, most of which may
-    be stresses at rest."""
+    """Return the area in contact [m²], and the ratio of the contact forces to the size of all forces, which
+    stresses at rest may dominate."""
     at, size = path.structure.configuration(path.state, 1.0), path.structure.forces(path.state, 1.0).size
     states = [one.report(at)[0] for one in path.structure.contacts]
     borne = sum(one.area * one.pressure for one in states)
@@ -136,23 +140,24 @@ def touched(path: Path[State, Forces]) -> tuple[float, float]:
 
 
 def _raise_penalties(path: Path[State, Forces], share: float) -> Fault | None:
-    """Raise the penalties from a share to their full stiffness; return the fault of an earlier end."""
+    """Raise the penalties from a share to their full stiffness; return the fault if a stage fails, else
+    None."""
     structure, factor = path.structure, LARGEST_FACTOR
     path.limit = path.factorisations + path.limits.factorisations
-    path.limits = replace(path.limits, corrections=PATIENT, back=PATIENT)
+    path.limits = replace(path.limits, corrections=STAGE_CORRECTIONS, back=STAGE_CORRECTIONS)
     narrow = within_cells = all(one.bent for one in structure.contacts)
     power = POINT if all(one.obstacle.kind == "sphere" for one in structure.contacts) else LINE
     before, last, (area, borne) = path.state, 0.0, touched(path)
     while True:
         target = share ** (1.0 - 1.0 / max(1, math.ceil(-math.log(share) / math.log(factor))))
-        soften(structure.contacts, target)
+        set_stiffness_share(structure.contacts, target)
         shrunk = (share / target) ** power
         close = 0.0 if target == 1.0 else CELL_STAGES * borne if within_cells else STAGES
         try:
             beyond = (1.0 - shrunk) / (1.0 / last - 1.0) if last and narrow else 0.0
             state, size = structure.restarted(path.state, before, beyond)
             solution = newton(path, Start(state, 1.0, 1.0, size), close)
-            require_way(path, solution[0], 1.0)
+            require_free_step(path, solution[0], 1.0)
         except LoadStepFailed as failure:
             factor, before = (target / share) ** 0.5, path.state
             if factor < SMALLEST_FACTOR or failure.status is Status.NON_FINITE:

@@ -45,15 +45,15 @@ class Structure(Protocol[State, Forces]):
     multipliers: int = 0  # number of constraints: negative eigenvalues of every tangent
 
     def loading(self) -> float:
-        """Return the sum of the full loads on the structure at rest [N]."""
+        """Return the magnitude [N] of the full load on the structure at rest."""
         return 0.0
 
     def configuration(self, state: State, load_factor: float) -> Any:
-        """Return a state at a load factor in the form for contacts."""
+        """Return the argument of the penalties' method `near` for a state at a load factor."""
 
     def restarted(self, state: State, before: State, beyond: float) -> tuple[State, float]:
-        """Return the state at full load extrapolated from an earlier state through a later one by a share of
-        their distance, without forces of former penalties, and the size of its energy [J]."""
+        """Return a start at full load for other penalties, and the size of its energy [J]: the state
+        extrapolated beyond `state` by `beyond` times its distance from `before`."""
         return state, 0.0
 
     def rest(self) -> State:
@@ -120,7 +120,7 @@ class Creeping(Structure[State, Forces], Protocol[State, Forces]):
     def potential(self, state: State, load_factor: float) -> tuple[float, float]:
         """Return the strain energy less the loads' work, and the sum of their magnitudes [J]."""
 
-    def dragged(self, state: State, load_factor: float, drag: float) -> Creeping[State, Forces]:
+    def creep_step(self, state: State, load_factor: float, drag: float) -> Creeping[State, Forces]:
         """Return the structure whose equilibrium at a load factor is the end of a creep step from a state."""
 
     unknowns: int

@@ -26,7 +26,7 @@ from sheetbench.numerics.continuation.limits import Limits
 from sheetbench.numerics.continuation.newton import Start, newton, predicted
 from sheetbench.numerics.continuation.path import Fault, Inspect, LoadStepFailed, Path, Progress, Settle
 from sheetbench.numerics.continuation.stability import stability
-from sheetbench.numerics.continuation.stiffening import reaches, require_way, trace_with_penalties
+from sheetbench.numerics.continuation.stiffening import require_free_step, trace_with_penalties, within_reach
 from sheetbench.numerics.continuation.structure import Forces, Solver, State, Structure
 from sheetbench.numerics.direct import Factor, SingularMatrixError
 from sheetbench.numerics.threads import one_blas_thread
@@ -55,7 +55,7 @@ def trace_path(
     with one_blas_thread():
         path = Path(structure, solver, structure.rest(), limits=limits or Limits(), progress=progress)
         path.alike, path.inspect, path.settle = SAME_TANGENT * slenderness**2, inspect, settle
-        touching = structure.contacts and reaches(structure)
+        touching = structure.contacts and within_reach(structure)
         fault = trace_with_penalties(path, _trace, near) if touching else _trace(path, near)
         path.fault = fault
         path.status, note = fault or stability(path)
@@ -80,7 +80,8 @@ class Ending(NamedTuple):
 
 
 def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault | None:
-    """Lead a path from rest, or from near the end, to load factor 1; return the fault of an earlier end."""
+    """Trace a path from rest, or from a start near the end, to load factor 1; return the fault if it ends
+    earlier."""
     if near is not None and _trace_near(path, near):
         return None
     plain = _take_load_steps(path)
@@ -100,7 +101,8 @@ def _trace(path: Path[State, Forces], near: Start[State] | None = None) -> Fault
 
 
 def _trace_near(path: Path[State, Forces], near: Start[State]) -> bool:
-    """Lead a path to a stable equilibrium close to a start; return False, the path unchanged, without one."""
+    """Move a path to a stable equilibrium close to a start; return False, with the path unchanged, if there
+    is none."""
     before = path.state, path.load_factor, path.factor
     try:
         state, factor = newton(path, near)
@@ -115,8 +117,8 @@ def _trace_near(path: Path[State, Forces], near: Start[State]) -> bool:
 
 
 def _trace_carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | None) -> Ending:
-    """Lead a path from rest again, by small load steps, if large ones may have left its branch. plain: end of
-    the large steps, which is returned if no small one succeeds."""
+    """Trace a path again from rest, by small load steps, if large ones may have left its branch. plain: end
+    of the large steps, which is returned if no small one succeeds."""
     budget = 0 if isinstance(plain, Fault) else _careful_budget(path)
     if not budget:
         return Ending(plain)
@@ -133,7 +135,8 @@ def _trace_carefully(path: Path[State, Forces], plain: LoadStepFailed | Fault | 
 
 
 def _trace_snaps(path: Path[State, Forces], ending: Ending) -> Fault | None:
-    """Lead a path past the limit points at which it ends; return the fault of an end before load factor 1."""
+    """Continue a path beyond the limit points at which it ends; return the fault if it ends before load
+    factor 1."""
     limits, reason = path.limits, ending.reason
     while isinstance(reason, LoadStepFailed):
         halted = reason.status is Status.STEP_LIMIT and path.load_factor > 0.0  # at a limit point
@@ -146,7 +149,7 @@ def _trace_snaps(path: Path[State, Forces], ending: Ending) -> Fault | None:
         try:
             state = path.settle(path, beyond)
             if path.structure.contacts:
-                require_way(path, state, beyond)
+                require_free_step(path, state, beyond)
             path.put(state, beyond)
         except LoadStepFailed as failure:
             tried = f"; relaxed at a load factor {limits.snap_step:g} higher, {failure}"
@@ -174,7 +177,7 @@ def _take_load_steps(path: Path[State, Forces], careful: bool = False) -> LoadSt
             close = limits.careful_tolerance if careful and first.target < 1.0 else 0.0
             state, last = newton(path, first, close)
             if path.structure.contacts:
-                require_way(path, state, first.target)
+                require_free_step(path, state, first.target)
             if careful:
                 last, longest = _require_continuous(path, first, state, last)
         except LoadStepFailed as failure:
@@ -213,8 +216,8 @@ def _refine(path: Path[State, Forces]) -> None:
 
 
 def _fault_at_end(path: Path[State, Forces], failure: LoadStepFailed, tried: str = "") -> Fault:
-    """Return the fault of a path's end: its load factor, the attempts beyond, and a branching before it. The
-    last equilibrium's tangent shows whether the path had branched."""
+    """Return the fault at a path's end, with the load factor, the attempts to go beyond, and a bifurcation
+    before it. The last equilibrium's tangent shows whether the path had branched."""
     message = f"no equilibrium found beyond load factor {path.load_factor:.4g}: {failure}{tried}"
     if path.load_factor > 0.0:
         status, note = stability(path)

@@ -36,7 +36,7 @@ class Resumable:
         """Return the attributes that a resumed run needs besides the state."""
         return {name: getattr(self, name) for name in self.remembered}
 
-    def recall(self, memory: dict[str, Any]) -> None:
+    def restore(self, memory: dict[str, Any]) -> None:
         """Restore the attributes from `memory`."""
         for name in self.remembered:
             value = np.asarray(memory[name])
@@ -64,7 +64,7 @@ class Controller(Resumable):
         return float(at_most / count) if count < fewer else self.step
 
     def ratio(self, error: float, allowed: float) -> float:
-        """Return r."""
+        """Return the ratio r of an error to the allowed one, whose power scales the step."""
         return float(SAFETY * (allowed / max(error, 1e-30)) ** (1.0 / self.order))
 
     def take(
@@ -93,7 +93,7 @@ class Controller(Resumable):
             return step, h
 
     def notes(self) -> str:
-        """Return a clause on steps accepted in spite of their error, "" without any."""
+        """Return a clause on steps accepted with a larger error than allowed, "" without any."""
         if not self.floored:
             return ""
         count = f"{self.floored} step{'s' * (self.floored > 1)} of the shortest length"

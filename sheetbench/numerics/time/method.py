@@ -55,18 +55,18 @@ class MotionMethod(Resumable, ABC, Generic[AnyState]):
         return {}
 
     def notes(self) -> str:
-        """Return a clause on steps accepted in spite of their error, "" without any."""
+        """Return a clause on steps accepted with a larger error than allowed, "" without any."""
         return "" if self.control is None else self.control.notes()
 
     def memory(self) -> dict[str, Any]:
         """Return the attributes that a resumed run needs besides the state."""
         return super().memory() | ({} if self.control is None else self.control.memory())
 
-    def recall(self, memory: dict[str, Any]) -> None:
+    def restore(self, memory: dict[str, Any]) -> None:
         """Restore the attributes from `memory`."""
-        super().recall(memory)
+        super().restore(memory)
         if self.control is not None:
-            self.control.recall(memory)
+            self.control.restore(memory)
 
     def forget(self) -> None:
         """Drop data kept only for speed, so that a resumed run equals an uninterrupted one exactly."""

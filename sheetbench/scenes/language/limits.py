@@ -44,10 +44,10 @@ INSTEAD = {  # by the words that are often written: the feature of sheetbench
     "plasticity plastic yield yield_stress damage fracture": "plasticity, damage and fracture are not "
     "modelled",
 }
-WISHES = {word: sentence for words, sentence in INSTEAD.items() for word in words.split()}
+UNSUPPORTED = {word: sentence for words, sentence in INSTEAD.items() for word in words.split()}
 
 
 def unsupported_note(word: str) -> str | None:
     """Return the sentence about a key or a kind that is not modelled, with the page, else None."""
-    sentence = WISHES.get(word.lower().replace("-", "_"))
+    sentence = UNSUPPORTED.get(word.lower().replace("-", "_"))
     return f"{sentence} ({PAGE})" if sentence else None

@@ -1,4 +1,4 @@
-"""Reading of a user's text files, up to a largest size: a device has no end, and a film is no text."""
+"""Reading of a user's text files, up to a largest size."""
 
 from pathlib import Path
 

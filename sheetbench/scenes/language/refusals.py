@@ -55,7 +55,7 @@ _SHORT.maxstring = _SHORT.maxother = LONGEST
 
 
 def _is_consequence(fault: Any) -> bool:
-    """Return whether a fault only counts the entries that other faults have left."""
+    """Return whether a fault only reports the number of entries that are left by other faults."""
     return fault["type"] == "too_short" and len(fault["input"]) >= fault["ctx"]["min_length"]
 
 

@@ -141,7 +141,8 @@ def _holder_name(holder: Holder) -> str:
 
 
 def _doubly_held_chain(actuators: Sequence[AnyActuator], supports: Sequence[AnySupport]) -> str:
-    """Return a sentence on a chain that is held along itself at two places, with a remedy; "" for none."""
+    """Return a sentence on a chain whose length is fixed at two places along its axis, with a remedy; "" for
+    none."""
     chains = {str(chain.edge): chain for chain in actuators if isinstance(chain, Chain)}
     fixed = {name: support for name, support in named(supports).items() if support.motion is None}
     for number, chain in enumerate(actuators, start=1):

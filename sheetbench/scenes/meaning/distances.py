@@ -1,4 +1,4 @@
-"""Distances from the obstacles of a scene, their gradients, ways through them, and gaps of the flat sheet.
+"""Distances of points from a scene's obstacles, with gradients, and the gaps between them and the flat sheet.
 
 The distance φ is, with y the position of a point less the obstacle's, across its axis if it has one, and of a
 box less the nearest point of its core, and P = ∂y/∂x,
@@ -10,8 +10,8 @@ box less the nearest point of its core, and P = ∂y/∂x,
 
     δ = (ρ² − |y|²)/2ρ,   ∂δ/∂x = −y/ρ,   ∂²δ/∂x² = −P/ρ;     on a plane  δ = o − φ,   ∂δ/∂x = −n
 
-which is o − φ but for (o − φ)²/2ρ, and quadratic over a sheet that is flat between the points that it is
-known at.
+which differs from o − φ by (o − φ)²/2ρ, and is quadratic over a sheet that is flat between the sampled
+points.
 """
 
 from __future__ import annotations
@@ -31,16 +31,17 @@ STEPS, ROUNDING = 60, 1e-14  # of Newton's method along a way; of |y|²
 GRID = 65  # points a side of the outline, or along an edge, that a distance is looked for at
 
 
-class Near(NamedTuple):
-    """Points beside an obstacle: places (…, 3) [m] from its middle, ρ (…) [m], infinite of a plane, the depth
-    (…) [m], how much less φ is than where they touch it, < 0 of one that is clear, and what of it a penalty
-    takes: δ (…) [m], with −∂δ/∂x = n (…, 3) and ∂n/∂x = `projector` · diag(curvature (…, 1 or 3))."""
+class ContactPoints(NamedTuple):
+    """Positions and depths of points relative to an obstacle. across: position (…, 3) [m] from the obstacle's
+    middle, across its axis if it has one; touch: ρ (…) [m], infinite for a plane; depth: o − φ (…) [m],
+    negative without contact; penetration: δ (…) [m], as in the penalty; slope: n = −∂δ/∂x (…, 3), with ∂n/∂x
+    = `projector` · diag(curvature (…, 1 or 3))."""
 
     obstacle: AnyObstacle
     across: np.ndarray
     touch: np.ndarray
     depth: np.ndarray
-    sunk: np.ndarray
+    penetration: np.ndarray
     slope: np.ndarray
     curvature: np.ndarray
 
@@ -49,9 +50,10 @@ class Near(NamedTuple):
         """∇φ (…, 3)."""
         return np.asarray(self.slope / (np.linalg.norm(self.slope, axis=-1, keepdims=True) + 1e-300))
 
-    def mean(self, start: Near) -> Near:
-        """Return points whose n̄ = (y₀ + y₁)/2ρ has n̄·Δx = −Δδ exactly since a start, and ∂n̄/∂x₁ = P/2ρ; where
-        the nearest point of a core moves with x, components of n̄ are the less."""
+    def mean(self, start: ContactPoints) -> ContactPoints:
+        """Return the points with the mean slope n̄ = (y₀ + y₁)/2ρ of the step from `start`, for which n̄·Δx =
+        −Δδ exactly and ∂n̄/∂x₁ = P/2ρ; components of n̄ are reduced where the nearest point of a core moves
+        with x."""
         core = self.obstacle.core
         moved = np.clip(self.across, -core, core) - np.clip(start.across, -core, core)
         share = np.divide(moved, self.across - start.across, out=np.zeros_like(moved), where=moved != 0.0)
@@ -59,9 +61,9 @@ class Near(NamedTuple):
         return self._replace(slope=slope, curvature=0.5 * self.curvature)
 
     def resistance(self, load: np.ndarray, speed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return forces (…, 3) [N] of dashpot and friction on points that a load p (…) [N] presses and that
-        move at a speed v (…, 3) [m/s] past the obstacle, and their derivatives (…, 3, 3) by it: −p τ v_n, but
-        nothing pulls, and −μ p v_t/√(v_t² + v₀²)."""
+        """Return the dashpot and friction forces (…, 3) [N] on points, and their derivatives (…, 3, 3) by v.
+        The forces are −p τ v_n, limited so that the normal force is never tensile, and −μ p v_t/√(v_t² +
+        v₀²), for normal loads p (…) [N] and velocities v (…, 3) [m/s] relative to the obstacle."""
         tau, n = self.obstacle.contact_damping, self.normal
         load, leaving = load[..., None], (speed * n).sum(axis=-1, keepdims=True)
         sliding = speed - leaving * n
@@ -71,9 +73,9 @@ class Near(NamedTuple):
         tangential = rubbed[..., None] * (np.eye(3) - dyad(n) - dyad(sliding / slip))
         return -pull - rubbed * sliding, -normal - tangential
 
-    def share_of_way(self, start: Near) -> float:
-        """Return up to which share straight ways of points from a start lead none of them deeper than half
-        the radius, nor through: 1 for all of them."""
+    def free_share(self, start: ContactPoints) -> float:
+        """Return the largest share of the points' straight paths from `start` on which no point is deeper
+        than half the radius; 1 if none is anywhere."""
         if isinstance(self.obstacle, Plane):
             return 1.0
         way, core = self.across - start.across, self.obstacle.core
@@ -102,13 +104,15 @@ def projector(obstacle: AnyObstacle) -> np.ndarray:
     return np.eye(3) - dyad(obstacle.direction)
 
 
-def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]) -> Near:
-    """Return the position relative to an obstacle, in its `place`, of points x (…, 3) [m] that touch at a
-    distance, the offset (…) [m]."""
+def near(
+    obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[float, float | None]
+) -> ContactPoints:
+    """Return the positions and depths of points x (…, 3) [m] relative to an obstacle. offset: distance (…)
+    [m] from the obstacle at which a point touches it; at: load factor and time of the obstacle's `place`."""
     y = x - obstacle.place(*at)
     if isinstance(obstacle, Plane):
         normal, depth = np.broadcast_to(obstacle.direction, y.shape), offset - y @ obstacle.direction
-        return Near(obstacle, y, depth + np.inf, depth, depth, normal, 0.0 * y[..., :1])
+        return ContactPoints(obstacle, y, depth + np.inf, depth, depth, normal, 0.0 * y[..., :1])
     across, core = y @ projector(obstacle), obstacle.core
     y = across - np.clip(across, -core, core)
     squared = (y * y).sum(axis=-1)
@@ -117,19 +121,21 @@ def near(obstacle: AnyObstacle, x: np.ndarray, offset: np.ndarray, at: tuple[flo
     slope = y * curvature
     if core.any():
         depth, curvature = depth + (core - abs(across)).min(axis=-1).clip(0.0), curvature * (y != 0.0)
-    return Near(obstacle, across, touch, depth, sunk, slope, curvature)
+    return ContactPoints(obstacle, across, touch, depth, sunk, slope, curvature)
 
 
-def farther(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
-    """Return an obstacle at so many times its distance from the flat sheet; one that it touches stays."""
+def scale_distance(scene: SceneFields, obstacle: AnyObstacle, factor: float) -> AnyObstacle:
+    """Return the obstacle with its distance from the flat sheet times a factor; an obstacle that touches the
+    sheet stays."""
     gap, away = nearest(scene, obstacle)
     return obstacle.replace(position=tuple((obstacle.position + (factor - 1.0) * gap * away).tolist()))
 
 
 def nearest(scene: SceneFields, obstacle: AnyObstacle) -> tuple[float, np.ndarray]:
-    """Return the smallest gap [m] between the flat sheet's face and an obstacle where a motion begins, < 0
-    where the sheet begins inside it, and the way from the sheet to it (3,): exact of a plane and where the
-    obstacle is over the sheet or the sheet a rectangle, else at points of the outline."""
+    """Return the smallest gap [m] between the flat sheet's face and an obstacle at the start of a motion,
+    negative if they overlap, and the unit vector (3,) from the sheet to the obstacle. Both are exact for a
+    plane, for an obstacle above the sheet and for a rectangular sheet, and otherwise found at points of the
+    outline."""
     import shapely
     from scipy.optimize import lsq_linear
 
@@ -148,7 +154,7 @@ def _gap(scene: SceneFields, one: AnyObstacle, plan: Any, time: float | None) ->
 
 
 def conflicts(scene: SceneFields) -> Iterator[object]:
-    """Yield why an obstacle cannot be where it is, "" or False where it can."""
+    """Yield a sentence on each obstacle that overlaps the flat sheet or a held edge, or a false value."""
     held = (one for one in scene.supports if isinstance(one, Clamped | Hinged))
     edges = [one.edge for one in held if one.where is one.motion is None]
     for name, obstacle in scene.named_obstacles().items():
@@ -162,7 +168,7 @@ def conflicts(scene: SceneFields) -> Iterator[object]:
 
 
 def require_no_obstacles(scene: SceneFields, who: str, kinds: Any = object) -> None:
-    """Raise SceneError where there are obstacles of some kinds."""
+    """Raise SceneError if a scene has obstacles of the given kinds."""
     for name, one in scene.named_obstacles().items():
         if isinstance(one, kinds):
             why = f"{name}: {who} has no contact with a {one.kind}; leave [[obstacle]] out"
@@ -170,7 +176,7 @@ def require_no_obstacles(scene: SceneFields, who: str, kinds: Any = object) -> N
 
 
 def require_frictionless(scene: SceneFields) -> None:
-    """Raise SceneError where an obstacle has friction, for a sheet at rest."""
+    """Raise SceneError if an obstacle has friction, since the answer at rest then depends on the path."""
     why = "at rest the answer depends on the path; let it settle in motion (--duration), or take friction = 0"
     for name, one in scene.named_obstacles().items():
         if one.friction > 0.0:

@@ -27,7 +27,7 @@ def kinks(scene: SceneFields) -> list[float]:
     return sorted({time for table in tables for time in table.time})
 
 
-def let_go(scene: AScene) -> AScene:
+def without_held_loads(scene: AScene) -> AScene:
     """Return the scene without the loads that hold the sheet until the motion starts."""
     return scene.replace(loads=tuple(load for load in scene.loads if not load.hold))
 

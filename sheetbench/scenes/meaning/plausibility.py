@@ -1,4 +1,4 @@
-"""Slips that no rule forbids: numbers that are valid in SI units but implausible, nearly always by a unit.
+"""Implausible values in scenes: valid numbers that are probably in the wrong unit.
 
 A sentence for each names the key, the value, the unit and the spelling of the likely quantity. Implausible
 are E below 1 kPa or above 10 GPa, a density outside 100 to 20 000 kg/m³, sides above 10 m, a thickness over a
@@ -27,7 +27,7 @@ THICKEST = 0.25  # of the shorter side
 EARTH = (9.3, 10.3)  # m/s²; anything else is another planet or another unit
 RUBBER = 10.0  # stress over E of small strains: Treloar's rubber at seven times its length has 5
 LAYERS = 5.0  # times thicker or thinner than the sheet
-BURDEN = 100.0  # a payload's mass over the sheet's
+HEAVY = 100.0  # a payload's mass over the sheet's
 
 
 def slips(scene: SceneFields) -> tuple[str, ...]:
@@ -89,9 +89,9 @@ def material_slips(material: Material) -> Iterator[str]:
 
 def _payload_slips(scene: SceneFields) -> list[str]:
     """Return sentences on payloads that are probably not in kilograms."""
-    heaviest = BURDEN * mass_of(scene) if scene.masses else 0.0
+    heaviest = HEAVY * mass_of(scene) if scene.masses else 0.0
     return [
-        f"mass {n}.mass = {payload.mass:g} kg is {few(payload.mass * BURDEN / heaviest)} of the sheet's; "
+        f"mass {n}.mass = {payload.mass:g} kg is {few(payload.mass * HEAVY / heaviest)} of the sheet's; "
         f'masses are in kg: {payload.mass:g} g is written "{payload.mass:g} g"'
         for n, payload in enumerate(scene.masses, start=1)
         if payload.mass > heaviest

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from sheetbench.scenes.objects.cutouts import NECK, common
+from sheetbench.scenes.objects.cutouts import LEAST_CONNECTION, common
 from sheetbench.scenes.objects.fields import SceneFields
 from sheetbench.scenes.objects.grading import Places
 from sheetbench.scenes.objects.loads import AnyLoad, AreaLoad, EdgeLoad, PointLoad
@@ -158,7 +158,7 @@ def misplaced(scene: SceneFields) -> Iterator[object]:
     parts: dict[str, Any] = {name: s for name, s in named(scene.supports).items() if not isinstance(s, Point)}
     parts |= {f"load {n}": load for n, load in enumerate(scene.loads, start=1)}
     parts |= {f"mass {n}": payload for n, payload in enumerate(scene.masses, start=1)}
-    least = NECK * min(scene.sheet.lengths)
+    least = LEAST_CONNECTION * min(scene.sheet.lengths)
     for name, part in parts.items():
         if (shape := getattr(part, "where", None)) is not None:
             where = f"{name}.where: {shape.in_words()}: no part of"

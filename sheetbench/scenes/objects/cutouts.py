@@ -15,7 +15,7 @@ from sheetbench.scenes.objects.sheet import Sheet
 if TYPE_CHECKING:
     from shapely import Polygon
 
-NECK = 1e-6  # of the shorter side, that connects a sheet: less is a point
+LEAST_CONNECTION = 1e-6  # of the shorter side, that connects a sheet: less is a point
 
 
 class Cutout(Frozen):
@@ -36,7 +36,7 @@ def region(sheet: Sheet, cutouts: tuple[Cutout, ...]) -> "Polygon":
         if cutouts:
             raise ValueError("cutout 1: not with sheet.mesh, which has its own holes")
         plan = sheet.mesh.area
-    neck = NECK * min(sheet.lengths)
+    neck = LEAST_CONNECTION * min(sheet.lengths)
     if (number := _first_idle(plan, cutouts)) is not None:
         words = f"cutout {number + 1}.shape: {cutouts[number].shape.in_words()}"
         raise ValueError(f"{words}: no part of it is on what is left of the sheet")

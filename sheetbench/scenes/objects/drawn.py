@@ -1,4 +1,4 @@
-"""A sheet's mesh, or its outline and holes, from a file: choice of the plane, change of unit and place.
+"""A sheet's mesh, or its outline and holes, from a file: projection to a plane, scaling to metres, and shift.
 
 [sheet] mesh = "cloth.obj", mesh_scale = "1 mm", mesh_shift = "corner"
 [sheet] outline = "fin.dxf"

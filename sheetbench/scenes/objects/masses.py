@@ -42,8 +42,8 @@ class Mass(Frozen):
     def _faults(self) -> Iterator[object]:
         one = "give one of at, a point [x, y], and where, a part of the sheet"
         yield (self.at is None) == (self.where is None) and one
-        point = "inertia: at a point the sheet gives way to a moment without bound, and no frequency"
-        yield self.inertia and self.at and f"{point} converges; give where, the part that turns with the body"
+        point = "inertia: the rotation of a point under a moment diverges as meshes get finer"
+        yield self.inertia and self.at and f"{point}; give where, the part that turns with the body"
 
     @property
     def of_director(self) -> np.ndarray:

@@ -36,22 +36,23 @@ class _Obstacle(Frozen):
 
     @property
     def direction(self) -> np.ndarray:
-        """A plane's normal or a cylinder's axis as a unit vector (3,), 0 of a sphere and a box."""
+        """Unit vector (3,) along a plane's normal or a cylinder's axis; zero for a sphere and a box."""
         along = np.array(getattr(self, "normal", getattr(self, "axis", (0.0, 0.0, 0.0))))
         return np.asarray(along / (np.linalg.norm(along) or 1.0))
 
     @property
     def core(self) -> np.ndarray:
-        """Half the sides (3,) [m] of a box without its rounding, 0 of other kinds."""
+        """Half-lengths (3,) [m] of a box without its rounding; zero for other kinds."""
         return np.zeros(3)
 
     def place(self, load_factor: float = 1.0, time: float | None = None) -> np.ndarray:
-        """Return the obstacle's position (3,) [m] after a share of its way: at a time [s], or at last."""
+        """Return the obstacle's position (3,) [m] after a share `load_factor` of its displacement at a time
+        [s], by default the last."""
         moved = np.zeros(3) if self.motion is None else self.motion.course.at(time)
         return np.asarray(self.position + load_factor * moved)
 
     def velocity(self, time: float | None) -> np.ndarray:
-        """Return its velocity (3,) [m/s] at a time [s], 0 without one."""
+        """Return the obstacle's velocity (3,) [m/s] at a time [s], zero for None."""
         return np.zeros(3) if self.motion is None or time is None else self.motion.course.slope(time)
 
 

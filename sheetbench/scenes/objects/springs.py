@@ -48,7 +48,7 @@ class PerDirection(Frozen):
 
 
 class Either(Frozen):
-    """One value of either sign for the edges of each direction."""
+    """A value of either sign for the edges along each direction."""
 
     x: AlongEdge
     """Along the edges x0 and x1."""

@@ -172,9 +172,9 @@ def held_axes(support: AnySupport) -> tuple[int, ...]:
     return (0, 1, 2)
 
 
-def points_pull(supports: Sequence[AnySupport], driven: bool) -> bool:
-    """Return whether points hold each other, or others them, in the sheet's plane: more than a rigid motion
-    needs. They sink into the sheet by the logarithm of a mesh's size, without a limit. driven: by actuators
+def points_overconstrain(supports: Sequence[AnySupport], driven: bool) -> bool:
+    """Return whether point supports constrain the sheet in its plane beyond its free rigid motions. Their
+    displacement then grows with the logarithm of a mesh's fineness, without a limit. driven: by actuators
     too."""
     points = [support for support in supports if isinstance(support, Point)]
     in_plane = sum(axis in "xy" for point in points for axis in point.components)
@@ -182,7 +182,7 @@ def points_pull(supports: Sequence[AnySupport], driven: bool) -> bool:
 
 
 def encloses_volume(supports: Iterable[AnySupport]) -> bool:
-    """Return whether every edge is held across itself, so that none sweeps an area. A pressure then has a
+    """Return whether every edge is held normal to itself, so that none sweeps an area. A pressure then has a
     potential, − p times the volume between the sheet and its plan."""
     on_edges = [support for support in supports if place(support) is None]
     held = {support.edge for support in on_edges if EDGES[support.edge].normal_axis in held_axes(support)}

@@ -185,12 +185,12 @@ def test_a_size_of_the_terminal_that_cannot_be_counts_for_nothing():
 def test_collections_are_fewest_while_a_verb_imports():
     startup.begin()
     try:
-        assert gc.get_threshold()[0] == startup.IMPORTING
+        assert gc.get_threshold()[0] == startup.IMPORT_THRESHOLD
         assert run("check", "two-edges-clamped") == 0
-        assert startup.USUAL[0] < gc.get_threshold()[0] == startup.WORKING < startup.IMPORTING
+        assert startup.DEFAULTS[0] < gc.get_threshold()[0] == startup.WORKING < startup.IMPORT_THRESHOLD
     finally:
         gc.unfreeze()
-        gc.set_threshold(*startup.USUAL)
+        gc.set_threshold(*startup.DEFAULTS)
 
 
 # ---- studies: refused without a checkout

@@ -40,7 +40,7 @@ def said(monkeypatch):
         yield say, screen, now
 
 
-def test_what_lasts_is_said_now_and_then(said):
+def test_long_work_is_reported_at_intervals(said):
     say, screen, now = said
     one = Work("solving shell", QUICK)
     say(one)
@@ -85,7 +85,7 @@ def test_a_comparison_tells_what_it_solves_and_how_far_it_is():
     assert all(one.size is not None and one.size.unknowns > 0 for one in reports)
 
 
-def test_other_verbs_tell_too(tmp_path):
+def test_modes_and_identify_report_progress(tmp_path):
     reports: list[Any] = []
     sb.modes(SCENE, grid=3, elements=2, count=2, progress=reports.append)
     assert [one.doing for one in reports] == ["modes of lumped", "modes of shell"]
@@ -130,7 +130,7 @@ def test_quiet_leaves_results_and_warnings(monkeypatch, quiet, capsys):
     def command():
         with console.progress() as show:
             show(Progress(1, 2, "a run", "converged", None))
-        console.tell("kernels are compiled first")
+        console.print_status("kernels are compiled first")
         console.note("the result")
         console.warn("a warning")
 

@@ -169,7 +169,7 @@ for verb, command in SHORT.items():
 
 @pytest.mark.smoke
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.replace(HUGE, "99…")[:80])
-def test_it_is_refused_in_a_line(row, tmp_path, monkeypatch, capsys):
+def test_a_bad_command_is_refused_in_a_line(row, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("measured.csv").write_text("x,y,ux,uy,uz\n0.094,0.094,,,-0.0024\n0.188,0.188,,,-0.0134\n")
     load(ONE).replace(supports=[Clamped(edge=edge) for edge in ("x0", "x1", "y0", "y1")]).save("frame.toml")

@@ -250,7 +250,7 @@ def test_recipes_are_sheets_or_are_said_to_be_none(capsys, code, numbers, stretc
     [
         ("newton", {"tri_ke": 1e3, "edge_k": 1.0}, "edge_k: Newton 1.8, VBD has tri_ke, tri_ka, edge_ke"),
         ("newton", {"tri_ke": 1e3, "edge_ke": 1.0}, "do not determine lambda_h of the membrane"),
-        ("newton", {"tri_ke": 1e3, "tri_ka": 1e3, "edge_ke": 1.0}, "--spacing: how far apart"),
+        ("newton", {"tri_ke": 1e3, "tri_ka": 1e3, "edge_ke": 1.0}, "--spacing: the distance"),
         ("arcsim", {f"stretching {n}": 1e3 for n in (1, 2, 3, 4)}, "no isotropic sheet has these"),
         ("newton", {}, "needs its numbers as NAME=VALUE"),
     ],

@@ -165,7 +165,7 @@ def test_verbs_export_the_lattice_that_they_answer_with(tmp_path, capsys):
     assert "0.002 m" in (tmp_path / "b" / "README.md").read_text(encoding="utf-8")
 
 
-def test_dampers_are_those_of_the_motion():
+def test_exported_dampers_are_those_of_the_motion():
     material = RUBBER.model_copy(update={"damping_time": 4e-3, "damping_rate": 2.0})
     scene = Scene(name="damped", sheet=SHEET, material=material, support=(CLAMP,))
     found = lumped.describe(scene, calibrated(scene, 3))

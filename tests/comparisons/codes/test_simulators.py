@@ -303,7 +303,7 @@ def test_sofas_scene_holds_the_lattice():
     assert float(data["EulerImplicitSolver"]["rayleighMass"]) == 3.0
 
 
-def test_what_they_do_not_have_is_refused():
+def test_sofa_refuses_features_that_it_lacks():
     with pytest.raises(BadInput, match="area and strain springs of cells; take --calibration central"):
         to_sofa(described(CORNER, method="consistent"), CORNER)
     with pytest.raises(BadInput, match="hold the mean of their layers"):

@@ -27,7 +27,7 @@ def case(name):
     return scene, calibrated(scene, **settings)
 
 
-def test_limits_are_the_closed_forms():
+def test_stable_steps_are_the_closed_forms():
     """Undamped 2/ω; of symplectic Euler 2/ω (√(1 + ξ²) − ξ), of Verlet at c h = 4 where damping is all."""
     omega, ratio = 100.0, np.array([0.1, 0.5, 2.0, 100.0])
     for loop in LOOPS:

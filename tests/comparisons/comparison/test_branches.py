@@ -105,7 +105,7 @@ def test_an_obstacle_that_one_model_alone_touches_is_no_other_branch(monkeypatch
     assert branches.on_one_branch(resolve(SCENE, LATTICE), None, *both) is None
 
 
-def test_another_branch_stays_where_it_is():
+def test_a_difference_that_a_finer_grid_keeps_is_another_branch():
     found = said(0.01, fine(0.0101), bar=0.01)
     assert "200 % apart: they lie on different branches of equilibria, for on 9×5×2 masses" in found
     assert "if the shell's mesh is fine enough" in said(0.01, fine(0.0101))
@@ -143,5 +143,5 @@ def test_up_to_100_percent_only_what_would_tend_to_the_reference_is_on_another_b
         (None, 0.01, "different branches of equilibria, or too coarse a grid or mesh"),
     ],
 )
-def test_what_cannot_be_told_is_said_so(finer, bar, expected):
+def test_undecided_reasons_of_a_difference_are_named(finer, bar, expected):
     assert expected in said(0.01, finer, bar=bar)

@@ -16,7 +16,7 @@ from comparisons.identification import measurements
 from sheetbench.answers.solution import Status
 from sheetbench.errors import NoEquilibrium
 from sheetbench.face import solve
-from sheetbench.runs.run import Watch
+from sheetbench.runs.run import SampleChecks
 from sheetbench.scenes import Scene, load
 from sheetbench.scenes.language.toml import to_toml
 
@@ -154,13 +154,13 @@ def test_a_growth_is_told_from_a_hundredth_and_ends_a_run_from_a_tenth():
     time = np.arange(4.0)
     for change, grown in ((0.002, False), (0.05, False), (0.2, True), (-0.2, False)):
         rows = np.column_stack([time, np.ones(4), change * time / 3.0, np.zeros((4, 3))])
-        watch = Watch()
+        watch = SampleChecks()
         sound, gained = watch.take(rows)
         assert (sound < 4) == (gained > 0.1) == grown
         status, message = watch.ending("")
         assert status is Status.CONVERGED
         assert ("off by" in message) == (abs(change) > 0.01)
-        assert Watch.recall(watch.memory()).ending("") == (status, message)
+        assert SampleChecks.restore(watch.memory()).ending("") == (status, message)
 
 
 def test_what_the_rule_takes_is_an_energy_of_its_own():
@@ -187,7 +187,7 @@ def test_its_document_has_the_promised_keys_sample_by_sample():
     assert document["time"][-1] == pytest.approx(0.1)
 
 
-def test_files_of_a_run(kept):
+def test_files_of_a_run_agree_with_its_document(kept):
     found = kept("simulate")
     document, folder = found.document, found.folder
     lines = (folder / "history.csv").read_text().splitlines()

@@ -258,7 +258,7 @@ def test_what_ends_badly_is_a_row_of_its_own_in_the_tradeoff(program, tmp_path, 
         ([f"exec '{sys.executable}' -c 'x = bytearray(2**30)'"], "exit status 1: MemoryError"),
     ],
 )
-def test_what_is_no_answer_is_told(program, lines, said):
+def test_an_invalid_answer_of_a_program_fails_with_its_reason(program, lines, said):
     solution = face.solve(SCENE, program("mine", *lines), memory_mb=800)
     assert (solution.status, solution.load_factor) == (Status.FAILED, 0.0)
     assert not solution.comparable

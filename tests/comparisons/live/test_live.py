@@ -20,7 +20,7 @@ from terminals import COMMAND, Terminal
 
 import sheetbench as sb
 from comparisons.live import server
-from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, most
+from comparisons.live.panel import ELEMENTS_CAP, MASSES_CAP, Panel, largest_count
 from comparisons.live.server import CONNECTIONS, MESSAGE
 from comparisons.models.spec import Lattice
 from sheetbench.answers.solution import Status
@@ -46,7 +46,7 @@ def query_of(panel, number=1, calibration="consistent", **values):
     return json.dumps({"number": number, "values": start | values, "calibration": calibration})
 
 
-def test_the_page_is_there_with_a_policy(address):
+def test_the_page_has_a_content_security_policy(address):
     answer = got(address, urlsplit(address).path)
     assert answer.status == 200 and b"sheetbench live" in answer.read()
     assert "default-src 'none'" in answer.headers["Content-Security-Policy"]
@@ -139,7 +139,7 @@ def test_sliders_have_ends_and_begin_at_the_scene(name):
     turned = {"angle": 0.5, "loads": 2.0} if name == "woven" else {}
     moved = panel.read(query_of(panel, **turned)).scene
     assert name == "bent" or (moved.material.angle, moved.loads[0].last_factor) == (0.5, 2.0)
-    assert 10 * most(SCENE.sheet.replace(length_y=10 * SCENE.sheet.length_x), 32) ** 2 <= 32 * 32
+    assert 10 * largest_count(SCENE.sheet.replace(length_y=10 * SCENE.sheet.length_x), 32) ** 2 <= 32 * 32
 
 
 def test_answers_are_those_of_compare(address, panel):
@@ -164,8 +164,8 @@ def test_answers_are_those_of_compare(address, panel):
 
 def test_there_is_no_error_where_the_lattice_has_no_answer(panel, monkeypatch):
     question = panel.read(query_of(panel, 0))
-    found = replace(server.solved(question), status=Status.DIVERGED)
-    monkeypatch.setattr(server, "solved", lambda *_: found)
+    found = replace(server.solve_lattice(question), status=Status.DIVERGED)
+    monkeypatch.setattr(server, "solve_lattice", lambda *_: found)
     assert server.shell(question)["error"] is None
 
 
@@ -179,7 +179,7 @@ def test_what_does_not_go_together_is_refused_and_the_page_goes_on(address, pane
 
 
 def test_a_fault_of_the_program_is_told_and_the_page_goes_on(address, panel, monkeypatch, capsys):
-    monkeypatch.setitem(server.WAYS, "lattice", lambda *_: 1 / 0)
+    monkeypatch.setitem(server.SOLVERS, "lattice", lambda *_: 1 / 0)
     status, document = posted(address, "lattice", query_of(panel, 4))
     assert status == 500 and "a fault of the program" in document["said"]
     assert "ZeroDivisionError" in capsys.readouterr().err
@@ -195,7 +195,7 @@ def test_a_question_that_is_too_long_is_not_read(address):
 
 def test_few_connections_are_open_at_once(address):
     place = urlsplit(address)
-    patience = server.Desk.timeout / 2  # s: those that are let in are closed by silence, later
+    patience = server.RequestHandler.timeout / 2  # s: those that are let in are closed by silence, later
     with ExitStack() as opened:
         idle = [
             opened.enter_context(socket.create_connection((place.hostname, place.port), patience))

@@ -182,7 +182,7 @@ def found(scene, model, count=1):
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("model", ["lumped", "shell", "solid"])
 @pytest.mark.parametrize(("case", "within"), [(square, 0.02), (column, 0.02), (on_edge, 0.02 + 0.5 * WIDTH)])
-def test_closed_forms(case, within, model):
+def test_buckling_loads_are_the_closed_forms(case, within, model):
     assert found(case(), model).load_factors[0] == pytest.approx(1.0, rel=within)
 
 

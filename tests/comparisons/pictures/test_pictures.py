@@ -46,7 +46,7 @@ def test_text_of_a_scene_is_no_mathematics(tmp_path, suffix):
     assert "\x1b" not in plain(HOSTILE)
 
 
-def test_names_of_near_points_stand_apart():
+def test_labels_of_near_points_do_not_overlap():
     figure = Figure(figsize=(7.2, 3.0))
     axis = figure.add_axes((0.0, 0.0, 1 / 3, 1.0))
     axis.imshow(np.zeros((1200, 1000)))
@@ -174,7 +174,7 @@ def test_the_same_picture_is_the_same_bytes_with_its_fonts(composed, tmp_path, n
     assert b"<text" not in svg and b"dc:date" not in svg
 
 
-def test_the_option(tmp_path, capsys):
+def test_figure_option_sets_formats_and_widths(tmp_path, capsys):
     out = tmp_path / "out"
     arguments = ["modes", "two-edges-clamped", "--grid", "3", "--reference", "plate", "--elements", "2"]
     assert run(*arguments, "--figure", "svg:single,pdf", "--out", str(out)) == 0

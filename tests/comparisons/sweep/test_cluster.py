@@ -23,8 +23,8 @@ HERE = Path(campaign_tasks.__file__).parent
 
 @pytest.fixture(autouse=True)
 def hurried(monkeypatch):
-    monkeypatch.setattr(executors, "PATIENCE", 1.0)
-    monkeypatch.setattr(campaign, "WATCHED", 0.2)
+    monkeypatch.setattr(executors, "TIME_LIMIT", 1.0)
+    monkeypatch.setattr(campaign, "CHECK_INTERVAL", 0.2)
 
 
 def cluster(workers):

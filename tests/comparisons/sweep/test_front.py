@@ -5,7 +5,7 @@ import pytest
 from comparisons.sweep.front import front, grouped, order
 
 
-def test_front_holds_what_nothing_beats():
+def test_front_has_the_rows_that_no_other_dominates():
     errors = [0.1, 0.05, 0.2, None, 0.01, float("nan"), 0.04]
     seconds = [1.0, 2.0, 3.0, 0.1, 4.0, 0.1, 2.0]
     assert front(errors, seconds) == [0, 6, 4]

@@ -45,7 +45,7 @@ def test_a_column_is_a_function_of_scene_and_answer(store, monkeypatch):
     assert row.row["columns"]["strain energy"] == row.document["energies"]
 
 
-def test_tags_and_labels_make_no_other_row():
+def test_keys_of_rows_ignore_tags_and_labels():
     """A model, its settings, a column, times and a program's version do."""
     same = Request(SEED, Lattice(3), tags={"factor": 2.0}, label="other")
     more = ({}, {"repeats": 1}, {"columns": ("bar",)}, {"version": "2"}, {"duration": 1.0, "every": 0.1})

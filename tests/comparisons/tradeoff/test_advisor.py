@@ -130,7 +130,7 @@ def test_one_rule_says_what_a_tolerance_is_held_against():
     assert " %, exceeds " in tight.text and "of a converged shell only" in tight.text
 
 
-def test_the_trade_off_has_the_same_rule():
+def test_cheapest_row_allows_for_the_model_error():
     """0.92 % off are within 1 % but for what the reference leaves out."""
     names, errors, seconds = ("coarse", "fine"), (0.0092, 0.003), (1e-3, 1e-2)
     assert cheapest(names, errors, seconds) == ["Cheapest within 5 %: coarse, 0.92 % off in 1 ms."]

@@ -64,7 +64,7 @@ def test_the_tangent_is_the_derivative_of_the_force(name):
     sheet, rng, at = SHEETS[name](), np.random.default_rng(1), 0.7
     static, flat = Static(sheet), sheet.on_supports(np.zeros(sheet.size), at)
     move = sheet.expand(sheet.shape(flat, at), rng.normal(size=sheet.unknowns))
-    q = sheet.moved(flat, np.where(sheet.scale == 1.0, 2e-3 * sheet.lever, 2e-2) * move)
+    q = sheet.moved(flat, np.where(sheet.scale == 1.0, 2e-3 * sheet.longer_side, 2e-2) * move)
     forces = static.forces(StaticState(q), at)
     matrix, _ = static.linearised(StaticState(q), forces, at, mixed=False)
     step = rng.normal(size=sheet.unknowns)

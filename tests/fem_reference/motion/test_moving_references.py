@@ -143,7 +143,7 @@ def settling():
     return strips.settling_scene()
 
 
-def test_energy_is_kept_in_account(settling):
+def test_work_of_loads_and_supports_balances_the_energy(settling):
     ramp = FactorTable(time=(0.0, 0.05), factor=(0.0, 1.0))
     raised = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
     scene = settling.replace(

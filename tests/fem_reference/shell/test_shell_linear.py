@@ -83,7 +83,7 @@ def test_a_start_close_to_an_unstable_equilibrium_is_left_for_the_path_from_rest
         assert path.status is Status.CONVERGED and path.state == pytest.approx(1 - np.sqrt(0.5), rel=1e-8)
 
 
-def test_overflow_is_told():
+def test_overflow_ends_a_path_as_non_finite():
     path = trace_path(Spring(lambda u: np.inf if u else 0.0, lambda u: 1.0), DirectSolver())
     assert path.status is Status.NON_FINITE and path.load_factor == 0.0
 
@@ -124,7 +124,7 @@ def foothold(path, load_factor, rise):
 
 
 def nothing(path, load_factor):
-    raise LoadStepFailed(Status.STEP_LIMIT, "the relaxation does not go on", 0.0)
+    raise LoadStepFailed(Status.STEP_LIMIT, "the relaxation makes no progress", 0.0)
 
 
 def test_snaps_are_bounded():
@@ -142,7 +142,7 @@ def test_where_nothing_is_found_status_and_place_stay_and_a_clause_says_what_was
     assert stopped.status is Status.STEP_LIMIT
     assert (path.status, path.state, path.load_factor) == (stopped.status, stopped.state, stopped.load_factor)
     (said,) = stopped.notes
-    assert path.notes == [f"{said}; relaxed at a load factor 0.01 higher, the relaxation does not go on"]
+    assert path.notes == [f"{said}; relaxed at a load factor 0.01 higher, the relaxation makes no progress"]
 
 
 def test_follower_loads_do_not_snap():

@@ -9,7 +9,7 @@ from cases import CONVERGED
 
 import fem_reference
 from fem_reference import statics
-from fem_reference.discrete.answer import traced
+from fem_reference.discrete.answer import trace_sheet
 from fem_reference.shell import coarse_start
 from fem_reference.surface.mesh import rectangle
 from sheetbench import scenes
@@ -65,7 +65,7 @@ def test_convergence_on_the_one_edge_scene(converged, graded, caps, slope):
 
 
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
-def test_curved_edge(name):
+def test_curved_edge_lies_on_its_arc_and_mirrors(name):
     scene = scenes.load(name)
     solution = solve(scene, 8)
     assert solution.status is Status.CONVERGED
@@ -168,8 +168,8 @@ def test_a_sheet_with_a_hole_begins_at_a_coarse_mesh_without_rows_along_the_rim(
         (coarse_start, "LIMITS", Limits(factorisations=2)),  # it takes long
         (
             statics,
-            "traced",
-            partial(traced, limits=Limits(same_branch=1e-3)),
+            "trace_sheet",
+            partial(trace_sheet, limits=Limits(same_branch=1e-3)),
         ),  # far from it
     ],
 )

@@ -11,7 +11,7 @@ from scipy.optimize import minimize_scalar
 import fem_reference
 import lumped
 from comparisons.sweep.differences import error
-from fem_reference.discrete.items import Dead
+from fem_reference.discrete.items import DeadLoad
 from fem_reference.discrete.static import Static, StaticState
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.surface.loads import spread
@@ -108,7 +108,7 @@ def strip(at=0.5, shorter=SHORTER, bent=0.0):
     point = np.array([at * SIDE, WIDTH / 2])
     element, value = shares(sheet.plan.mesh, point[None])
     dead = spread(sheet.plan, sheet.plan.elements[element], value, np.array([0.0, 0.0, -1.5 * LIMIT]))
-    sheet.items.append(Dead(sheet.on_coordinates(dead), float))
+    sheet.items.append(DeadLoad(sheet.on_coordinates(dead), float))
     moved, turned = np.zeros((2, len(nodes), 3))
     moved[:, 0] = -shorter * (nodes[:, 0] / SIDE - 0.5)
     phase, high = np.pi * nodes[:, 0] / SIDE, bent * height(shorter)
@@ -236,7 +236,7 @@ def test_a_tape_spring_snaps_as_the_lattice_does(taped):
 
 @pytest.mark.parametrize("scene", [rod_scene(0.1, 3.0), chained()], ids=["shell", "rods"])
 def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene):
-    """Along free positions, by central differences; a dragged sheet is, where it begins, the sheet itself."""
+    """Along free positions, by central differences; a creep step begins with the forces of the sheet."""
     sheet = DiscreteShell(rectangle(scene.sheet, (3, 3), graded=True), scene)
     generator, factor, structure = np.random.default_rng(3), 0.7, Static(sheet)
     free = ~sheet.supports.position
@@ -250,7 +250,7 @@ def test_the_potential_is_that_of_the_residual_and_a_drag_begins_with_none(scene
     state = StaticState(q)
     residual = structure.forces(state, factor).residual
     assert (ahead - behind) / (2.0 * step) == pytest.approx(residual @ way, rel=1e-6)
-    slow = structure.dragged(state, factor, 3.0).forces(state, factor).residual
+    slow = structure.creep_step(state, factor, 3.0).forces(state, factor).residual
     assert slow == pytest.approx(residual, rel=1e-9, abs=1e-9 * np.abs(residual).max())
 
 

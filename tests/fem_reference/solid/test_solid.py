@@ -27,7 +27,7 @@ def with_poisson(name, poisson):
 
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("name", ["curved-edge", "curved-edge-down"])
-def test_curved_edge(name):
+def test_curved_edge_lies_on_its_arc_beside_the_shell(name):
     """The face follows the rod's director, free in thickness; the rest agrees with the shell."""
     scene = scenes.load(name)
     points = scene.probe_points()
@@ -119,7 +119,7 @@ def test_field_mesh_has_every_node():
         ({"layers": 0}, "layers = 0"),
     ],
 )
-def test_misuse(options, said):
+def test_unknown_options_are_refused(options, said):
     with pytest.raises(ValueError, match=said):
         solid(scenes.load("two-edges-clamped"), 2, **options)
 

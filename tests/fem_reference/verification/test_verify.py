@@ -41,7 +41,7 @@ def held(rows):
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.nightly] * (name in HEAVIEST)) for name in QUICK]
 )
-def test_quick_cases_pass(name):
+def test_quick_verification_cases_pass(name):
     rows = rows_of(name)
     held(rows)
     assert {row.case for row in rows} == {name}

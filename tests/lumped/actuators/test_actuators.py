@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from dynamic_cases import make_scene, run, system
-from lattice_cases import derivative
+from lattice_cases import SHEET, derivative
 from numpy.testing import assert_allclose
 
 import lumped
@@ -13,9 +13,8 @@ from lumped.actuators.chain import BoundChain
 from lumped.dynamics import INTEGRATORS
 from lumped.lattice import build
 from sheetbench.numerics.saddle_point import CORRECTIONS, minimal_residual
-from sheetbench.scenes import Chain, Sheet
+from sheetbench.scenes import Chain
 
-SHEET = Sheet(length_x=0.2, length_y=0.3, thickness=0.01)
 LATTICE = build(SHEET, (4, 7, 2), 0.008)
 ROD = dict(edge="x1", segments=4, bending_stiffness=0.02, line_density=0.05, radius=2e-3)
 PLANES, BASES = ("normal", "inplane", "spatial"), ("free", "start", "middle", "end")

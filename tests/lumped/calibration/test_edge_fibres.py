@@ -67,7 +67,7 @@ OTHERS = {
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_so_it_does_on_other_sheets(name):
+def test_bent_energy_is_exact_on_graded_layered_and_cut_sheets(name):
     scene, grid, grading = OTHERS[name]
     springs = calibrated(scene, grid, grading)
     energy, pull = bent(scene, springs, SIDES)

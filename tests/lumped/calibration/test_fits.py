@@ -92,7 +92,7 @@ def test_intervals_of_a_straight_line():
     assert hits / 400 == pytest.approx(0.95, abs=0.03)
 
 
-def test_what_cannot_be_told_apart_is_said():
+def test_undetermined_parameters_are_named():
     x = np.linspace(0, 1, 20)
     noise = np.random.default_rng(1).standard_normal(20)
     same = identifiability(["a", "b", "c"], np.stack([x, x, 1 - x], axis=1), noise)
@@ -103,7 +103,7 @@ def test_what_cannot_be_told_apart_is_said():
 
 
 @pytest.mark.parametrize("method", ["fit-static", "fit-modal"])
-def test_misuse(method):
+def test_missing_or_wrong_targets_are_refused(method):
     with pytest.raises(ValueError, match="needs targets"):
         lumped.calibrate(SHEET, MATERIAL, (5, 5), method)
     modal, static = ModalTarget(TRAINING[0], np.ones(1)), StaticTarget(TRAINING[0], POINTS, 0.0 * POINTS)

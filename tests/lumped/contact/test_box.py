@@ -59,7 +59,7 @@ def test_ways_end_before_they_lead_deeper_than_half_the_radius(body):
     ends = np.random.default_rng(3).normal(scale=0.4, size=(2, 400, 3)) + body.position
     for first, last in zip(*ends, strict=True):
         deep = beside(first + steps[:, None] * (last - first)).depth > 0.5 * body.radius
-        found = beside(last).share_of_way(beside(first))
+        found = beside(last).free_share(beside(first))
         if deep[0] or not deep.any():
             assert found >= 0.99
         else:

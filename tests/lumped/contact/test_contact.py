@@ -81,7 +81,7 @@ def test_force_and_tangent_are_derivatives_of_the_energy(item):
 def test_mean_force_does_the_energys_work_and_resistance_takes_power(item):
     problem, contact, u, rng = item
     still = Drive(1.0, 0.0)
-    contact.move_freely(np.ones(len(u)), 1e9)
+    contact.set_motion_penalty(np.ones(len(u)), 1e9)
     end, mean = u + 0.01 * rng.normal(size=u.shape), np.zeros_like(u)
     contact.add_force((end, still), mean, (u, still))
     stored = [contact.add_force((at, still), np.zeros_like(u)) for at in (u, end)]
@@ -263,7 +263,7 @@ def test_without_an_obstacle_nothing_of_contact_runs():
     assert set(calls(laid_strip(0.05, obstacles=()))) <= {"contacts", "<genexpr>"}
 
 
-def test_what_statics_refuse():
+def test_statics_refuse_friction_linearity_and_free_motions():
     sheet = laid_strip(0.05, obstacles=(Plane(position=(0.0, 0.0, -0.1), friction=0.3),))
     with pytest.raises(SceneError, match=r"obstacle 1.friction = 0.3: at rest"):
         on_lattice(sheet, (5, 3, 2))

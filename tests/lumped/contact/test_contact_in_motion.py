@@ -129,7 +129,7 @@ def test_friction_slows_a_slide():
 
 @pytest.mark.sweep
 @pytest.mark.parametrize("integrator", ["auto", "midpoint", "esdirk"])
-def test_a_press_does_its_work(integrator):
+def test_work_of_a_lifting_plane_is_the_gain_of_energy(integrator):
     """A hanging strip that a plane lifts gains what the plane gives."""
     lift = Motion(time=(0.0, 0.1), displacement=((0.0, 0.0, 0.0), (0.0, 0.0, 0.02)))
     pressed = STRIP.replace(

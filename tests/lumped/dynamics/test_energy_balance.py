@@ -78,7 +78,7 @@ P4 = np.array(
 @pytest.mark.sweep(2)
 @pytest.mark.parametrize("masses, held", [(9, 0.007), (17, 0.005)])
 @pytest.mark.parametrize("integrator", ["esdirk", "verlet"])
-def test_a_free_swing_is_the_shells(masses, held, integrator):
+def test_free_vibration_agrees_with_the_shell(masses, held, integrator):
     """With tributary masses 3.2 and 0.65 % off; of second order in the cells."""
     scene = load("one-edge-clamped")
     springs = lumped.calibrate(scene.sheet, scene.material, masses)

@@ -5,11 +5,12 @@ from functools import cache
 import numpy as np
 import pytest
 from dynamic_cases import make_scene
+from ring_down import BRANCHES
 
 import lumped
 from lumped.dynamics import INTEGRATORS
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import Air, FactorTable, Material, Relaxation, Scene, Sheet, load
+from sheetbench.scenes import Air, FactorTable, Material, Scene, Sheet, load
 from sheetbench.scenes.objects.natural import Natural
 
 ONE = "one-edge-clamped"
@@ -26,7 +27,6 @@ COURSE = {"time": [0.0, 0.011, 0.03], "displacement": [[0.0] * 3, [1e-3, 2e-3, 4
 TURNS = [[0.0] * 3, [0.1, 0.3, -0.1], [0.1, -0.2, 0.2]]
 TURNED = {"kind": "motion", "edge": "x0", **COURSE, "rotation": TURNS}
 CLAMP = {"edge": "x0", "kind": "clamped"}
-BRANCHES = (Relaxation(0.25, 0.02), Relaxation(0.15, 0.3))
 PART = {"rectangle": {"x": (0.141, 0.188), "y": (0.047, 0.141)}}
 BODY = {"where": PART, "mass": 0.02, "inertia": (2e-6, 2e-6, 1e-6)}
 

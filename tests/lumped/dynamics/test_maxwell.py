@@ -52,7 +52,7 @@ def test_a_relaxing_sheet_moves_as_the_shell(shell, name):
     assert run.energies["dissipated"][-1] == pytest.approx(shell.energies["dissipated"][-1], rel=0.02)
 
 
-def test_what_takes_no_branches_says_so():
+def test_models_without_branches_refuse_them():
     scene = scenes.load("one-edge-clamped").replace(relaxation=BRANCHES)
     unlike = springs(scene, 3).springs.replace(axial=PerDirection(x=1e3, y=1e3, z=1.0))
     without_energy = replace(springs(scene, 3), springs=unlike)

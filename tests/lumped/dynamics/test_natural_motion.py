@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 from cases import sheet
+from lattice_cases import MATERIAL
 
 import lumped
 from sheetbench.errors import BadInput
-from sheetbench.scenes import FactorTable, Material, Patch
+from sheetbench.scenes import FactorTable, Patch
 from sheetbench.scenes.objects.natural import Natural
 
 RAMP = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
-MATERIAL = Material(young=1e6, poisson=0.3, density=1e3)
 BAND = {"rectangle": {"x": (0.05, 0.1), "y": (0.0, 0.1)}}
 
 

@@ -44,7 +44,7 @@ def test_flat_is_stable_below_the_buckling_load_and_above_it_the_buckled_state_i
     assert heights[0] < 1e-9 and heights[1] > THICKNESS
 
 
-def test_factors_at_hand_polish():
+def test_the_last_corrections_reuse_factors():
     """From the second correction on a polished equilibrium costs no factors."""
     scene = scenes.load("two-edges-clamped")
     solution = lumped.solve(scene, lumped.calibrate(scene.sheet, scene.material, grid=(3, 3)))

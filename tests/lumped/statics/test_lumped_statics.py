@@ -126,7 +126,7 @@ def test_strips_are_beams(name):
     assert solution.displacement([at])[0, axis] == pytest.approx(expected, rel=within)
 
 
-def test_three_layers():
+def test_three_layers_agree_with_two():
     """Where the closed form holds (spacing near the thickness) three layers agree with two."""
     scene = SEED["one-edge-clamped"].replace(thickness=0.012)
     two, three = solve(scene, (17, 17, 2)), solve(scene, (17, 17, 3))

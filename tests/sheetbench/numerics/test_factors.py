@@ -93,7 +93,7 @@ def test_factors_solve_and_tell_the_inertia(kind, shape):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("entry", [1.0, np.nan, np.inf], ids=["singular", "not a number", "infinite"])
-def test_what_has_no_factors_is_told(kind, entry):
+def test_singular_and_non_finite_matrices_are_refused(kind, entry):
     spring = np.array([[1.0, -1.0], [-1.0, 1.0]]) / 3.0
     cells = CoupledCells(np.array([[0, 1], [1, 2], [2, 3]]), np.array([[0.0, 0], [1, 0], [2, 0]]))
     matrix = Pattern(cells.unknowns, size=4).matrix(np.array([spring, 7.0 * spring, spring]))

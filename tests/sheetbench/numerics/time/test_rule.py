@@ -89,7 +89,7 @@ def test_a_step_at_the_shortest_length_counts_and_is_told():
     assert found == h and h <= 0.3 and control.rejected >= 1 and control.floored == 1
     assert control.notes().startswith("1 step of the shortest length ")
     again = controller()
-    again.recall(control.memory())
+    again.restore(control.memory())
     assert again == control
 
 

@@ -31,7 +31,7 @@ def test_later_patches_win_in_what_they_give():
     )
 
 
-def test_the_shares_of_a_cell_sum_up_to_it():
+def test_shares_of_a_cell_add_up_to_one():
     scene = scene_of(
         {"shape": ROOT, "young": 5e7}, {"shape": DISC, "young": 1e6}, {"shape": WEDGE, "poisson": 0.0}
     )

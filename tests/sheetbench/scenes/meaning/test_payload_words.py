@@ -22,7 +22,7 @@ def read(tmp_path, text):
     return load(written(tmp_path, text))
 
 
-def test_a_mass_is_read_written_and_told(tmp_path):
+def test_a_payload_is_read_written_and_described(tmp_path):
     turning = f'[[mass]]\nmass = 0.001\ninertia = ["20 g·cm²", 1e-6, "2e-6 kg·m²"]\n{DISC(0.1)}\n'
     scene = read(tmp_path, TIP + turning)
     assert scene.masses[0] == sb.Mass(0.005, (0.2, 0.05)) and scene.masses[1].inertia == (2e-6, 1e-6, 2e-6)
@@ -48,13 +48,13 @@ REFUSED = {
     "at = [0.1, 0.05]\nmass = -0.1": "mass 1.mass = -0.1: must be greater than 0",
     'at = [0.1, 0.05]\nmass = "5 mm"': "'5 mm' is a length; a mass is needed: 20 g",
     f"mass = 0.1\ninertia = [1.0, -1.0, 0.0]\n{DISC(0.1)}": "mass 1.inertia 2 = -1.0: must be 0 or more",
-    "at = [0.1, 0.05]\nmass = 0.1\ninertia = [1.0, 1.0, 0.0]": "inertia: at a point .* give where, the part",
+    "at = [0.1, 0.05]\nmass = 0.1\ninertia = [1.0, 1.0, 0.0]": "inertia: the rotation of .* give where, the",
     'at = [0.1, 0.05]\nweight = "5 N"': r"mass 1.weight .* unknown key; known: at, inertia",
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("text", REFUSED)
-def test_what_makes_no_sense_is_refused(tmp_path, text):
+def test_invalid_payloads_are_refused(tmp_path, text):
     with pytest.raises(SceneError, match=REFUSED[text]):
         read(tmp_path, f"{BASE}[[mass]]\n{text}\n")
 

@@ -78,7 +78,7 @@ def test_every_verb_says_it_once_on_standard_error(tmp_path, capsys):
         (("--layer-distance", "3"), ["layer-distance = 3 m", "1000 times"]),
     ],
 )
-def test_options_are_weighed_too(options, said, capsys):
+def test_implausible_options_get_a_warning(options, said, capsys):
     assert run("calibrate", "one-edge-clamped", "--grid", "5", *options) == 0
     # a busy machine says how far it is
     lines = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("solving")]

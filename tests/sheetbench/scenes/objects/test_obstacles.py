@@ -5,7 +5,7 @@ from contact_cases import THICKNESS, laid_strip
 
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Box, Cylinder, Motion, Plane, Scene, SceneError, Sphere, load
-from sheetbench.scenes.meaning.distances import farther, nearest
+from sheetbench.scenes.meaning.distances import nearest, scale_distance
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.meaning.words import in_words
 
@@ -68,5 +68,5 @@ def test_parameters_and_distances_of_an_obstacle():
         with pytest.raises(BadInput, match=unknown):
             put(scene, unknown, 1.0)
     for obstacle, gap in GAPS.values():
-        twice = farther(scene, obstacle, 2.0)
+        twice = scale_distance(scene, obstacle, 2.0)
         assert nearest(scene, twice)[0] == pytest.approx(2.0 * (gap - THICKNESS / 2), abs=1e-8)

@@ -2,7 +2,6 @@
 another person: formats that have ends, nothing read but the file, numbers that hold."""
 
 from itertools import pairwise
-from time import perf_counter
 
 import meshio
 import numpy as np
@@ -332,10 +331,8 @@ def test_reading_has_limits_of_time_and_memory(tmp_path, monkeypatch):
     endless = beside(tmp_path, "m.ele", "# x\n")
     monkeypatch.setitem(plan_mesh.FORMATS, ".ele", "tetgen")
     monkeypatch.setattr(plan_mesh, "SECONDS", 1.0)
-    started = perf_counter()
     with pytest.raises(SceneError, match=r"m.ele: it cannot be read: no answer within 1 s"):
         load(endless)
-    assert perf_counter() - started < 30.0
     monkeypatch.setattr(plan_mesh, "SECONDS", 20.0)
     with pytest.raises(SceneError, match=r"m\.msh: reading it takes more memory than a mesh may"):
         load(beside(tmp_path, "m.msh", FAR))

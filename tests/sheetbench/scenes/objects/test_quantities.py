@@ -9,7 +9,7 @@ from scene_files import GOOD, refusal, written
 
 import sheetbench as sb
 from sheetbench.scenes import Implausible
-from sheetbench.scenes.language.limits import PAGE, WISHES
+from sheetbench.scenes.language.limits import PAGE, UNSUPPORTED
 from sheetbench.scenes.language.schema import for_editors
 from sheetbench.scenes.language.units import NAMES, quantity
 from sheetbench.scenes.objects.supports import Motion
@@ -191,7 +191,7 @@ def test_an_implausible_scene_made_in_python_is_warned_of_by_the_verb_that_reads
 )
 def test_what_is_not_modelled_is_refused_as_such(tmp_path, text, key):
     said = refusal(tmp_path, GOOD.replace("[probes]", text))
-    assert WISHES[key] in said and PAGE in said
+    assert UNSUPPORTED[key] in said and PAGE in said
     assert "did you mean" not in said and "unknown key" not in said
 
 
@@ -206,5 +206,5 @@ def test_no_key_that_a_scene_has_is_said_not_to_be_modelled():
     schema = for_editors(sb.Scene)
     tables = [*schema["$defs"].values(), schema]
     keys = {key for table in tables for key in table["properties"]}
-    assert keys & set(WISHES) == {"hole"}  # of `where`; a table [[hole]] is none
+    assert keys & set(UNSUPPORTED) == {"hole"}  # of `where`; a table [[hole]] is none
     assert (ROOT / PAGE).is_file()

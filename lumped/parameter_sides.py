@@ -92,7 +92,7 @@ def of_changed(
 
 def same_method(calibration: Calibration, scene: Scene) -> Callable[[Sheet], Calibration]:
     """Return the function that calibrates a sheet with the scene's material and parts by a calibration's
-    method and options, on its grid. Raises BadInput for springs of no such method."""
+    method and options, on its grid. Raises BadInput for fitted springs and a scene's table."""
     method, grid, grading = calibration.method, calibration.grid, calibration.grading
     if method not in MAKERS:
         raise BadInput(f"springs of calibration '{method}' do not follow from the sheet and its material")

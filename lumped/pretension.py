@@ -68,7 +68,7 @@ def calibrated_at_rest(scene: Scene, calibrate: Callable[[Sheet], Calibration]) 
 
 
 def size_at_rest(scene: Scene, calibrate: Callable[[Sheet], Calibration]) -> Sheet:
-    """Return the sheet of a scene at its size at rest, as `calibrated_at_rest` has it."""
+    """Return the sheet of a scene at its size at rest; `calibrate` is called under a pretension alone."""
     sheet = sheet_at_rest(scene)
     if scene.natural is None or scene.natural.pretension is None:
         return sheet

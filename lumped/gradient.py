@@ -203,8 +203,9 @@ class Equilibrium:
             return self.problem.reduce(force), np.zeros_like(self.u), force
         share, found = self.share, []
         unknowns = self.problem.constraints.nearest(self.u - self.problem.prescribed(share))
+        here = self.problem.expand(unknowns) + self.problem.prescribed(share)  # u, but for a flat sheet
         for side in (low, high):
-            placed = side.expand(unknowns) + side.prescribed(share)
+            placed = self.u + (side.expand(unknowns) + side.prescribed(share) - here)
             left = side.residual(placed, share)
             found.append((left.reduced, placed, left.force))
         rows, moved, force = (scale * (up - down) for down, up in zip(*found, strict=True))

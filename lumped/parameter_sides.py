@@ -112,7 +112,7 @@ def _calibrated(calibration: Calibration, scenes: Sequence[Scene]) -> list[Calib
     """Return the springs of scenes by a calibration's method; of isotropic sheets without parts in one
     pass."""
     method, grid = calibration.method, calibration.grid
-    with_parts = calibration.cells is not None or scenes[0].natural is not None
+    with_parts = calibration.cells is not None or scenes[0].natural or scenes[0].patches  # which may grow
     if method.startswith("consistent") and not (with_parts or calibration.grading or calibration.options):
         with suppress(NoClosedForm):
             sheets = [(sheet_at_rest(one), one.material) for one in scenes]

@@ -81,7 +81,7 @@ def modes(
     count : int
         Number of elastic modes.
     about : {"flat", "deformed"}
-        The flat, stress-free sheet, or its equilibrium under the scene's loads (the shell only, without
+        The flat, stress-free sheet alone, or its equilibrium under the scene's loads (the shell only, without
         actuators and loads that follow the sheet).
     **options : bool, str or Section
         `law` of strain of shell and solid, by default of the scene's rubber; `section` and `graded` of plate
@@ -116,7 +116,8 @@ def modes(
         require_static(scene)
         if model != "shell" or scene.actuators:
             raise BadInput("--about = deformed: for the shell only, and without actuators")
-    scene = scene.replace(actuators=())
+    else:
+        scene = scene.replace(actuators=(), obstacles=())
     division = division_of(scene, model, elements, **options)
     with one_blas_thread():
         sheet = division.sheet(reach=REACH)

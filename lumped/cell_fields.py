@@ -33,6 +33,8 @@ from lumped.calibration.consistent import special
 from lumped.masses import shares_of_layers
 from lumped.natural import grown
 from lumped.natural import powers as natural_powers
+from lumped.parameter_sides import same_method
+from lumped.pretension import size_at_rest
 from lumped.sections import CellSection, of_cells, ratio, twisting
 from lumped.spring_constants import EDGES_OWN, NONE, RIMS_OWN, Springs
 from lumped.springs.all_families import cell_springs, faces_by_cells, families_of, stiffness_by_cells
@@ -40,7 +42,7 @@ from lumped.springs.families import Family
 from lumped.springs.law_table import FACE
 from sheetbench.errors import BadInput
 from sheetbench.scenes import Cells, Scene
-from sheetbench.scenes.meaning.natural_state import NaturalState, sheet_at_rest
+from sheetbench.scenes.meaning.natural_state import NaturalState
 
 FIELD = "cells."
 YOUNG, POISSON, THICKNESS, DENSITY = NUMBERS = tuple(
@@ -152,8 +154,9 @@ class CellFields:
 
     @cached_property
     def _at_rest(self) -> GridCells:
-        sheet, of = sheet_at_rest(self.scene), self.calibration
-        return each_cell(sheet, self.scene.material, of.grid, of.grading, self.section)
+        scene, of = self.scene, self.calibration
+        sheet = size_at_rest(scene, lambda first: same_method(of, scene)(first))
+        return each_cell(sheet, scene.material, of.grid, of.grading, self.section)
 
     def assembly_of(self, values: Values, complete: bool = False) -> Assembly:
         """Return the lattice of cells with other fields; complete: with springs of the mid-surface, as still

@@ -124,10 +124,17 @@ class Base:
 
 class Equilibrium:
     """Derivatives at a stable equilibrium u (n, 3) [m] of a lattice. values: of fields over the cells and
-    forces, by name, in place of the scene's own; problem: with them, if it is known."""
+    forces, by name, in place of the scene's own; problem: with them, if it is known; share: load factor."""
 
-    def __init__(self, base: Base, u: np.ndarray, values: Values = ITS_OWN, problem: Problem | None = None):
-        self.base, self.u, self.values = base, u, values
+    def __init__(
+        self,
+        base: Base,
+        u: np.ndarray,
+        values: Values = ITS_OWN,
+        problem: Problem | None = None,
+        share: float = 1.0,
+    ):
+        self.base, self.u, self.values, self.share = base, u, values, share
         self.problem = problem or base.with_values(values)
         self.rates_of_cells = base.cells.rates_at(values)
 
@@ -142,7 +149,7 @@ class Equilibrium:
     def _factor(self) -> Factor:
         try:
             with one_blas_thread():  # that of the path's end may be older
-                found = self.problem.system.factor(self.problem.tangent(self.u, 1.0))
+                found = self.problem.system.factor(self.problem.tangent(self.u, self.share))
         except SingularMatrixError as error:
             raise NoEquilibrium(f"lumped: no derivatives, a singular tangent: {error}") from None
         if self.problem.descends and found.negative > 0:
@@ -153,7 +160,7 @@ class Equilibrium:
     def _transposed(self) -> Factor:
         if self.problem.symmetric:
             return self._factor
-        matrix = self.problem.system.matrix(self.problem.tangent(self.u, 1.0))
+        matrix = self.problem.system.matrix(self.problem.tangent(self.u, self.share))
         return DirectSolver(symmetric=False).factor(sp.csc_array(matrix.T))
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
@@ -197,12 +204,14 @@ class Equilibrium:
             sides, over = self.base.sides(name)
             (low, high), scale = (side.with_values(self.values) for side in sides), change / over
         if low.assembly is high.assembly and low.constraints is high.constraints and not low.contacts:
-            force = scale * (high.loads.force(self.u) - low.loads.force(self.u))
+            force = self.share * scale * (high.loads.force(self.u) - low.loads.force(self.u))
             return self.problem.reduce(force), np.zeros_like(self.u), force
-        unknowns, found = self.problem.constraints.nearest(self.u - self.problem.prescribed(1.0)), []
+        share, found = self.share, []
+        unknowns = self.problem.constraints.nearest(self.u - self.problem.prescribed(share))
+        here = self.problem.expand(unknowns) + self.problem.prescribed(share)  # u, but for a flat sheet
         for side in (low, high):
-            placed = side.expand(unknowns) + side.prescribed(1.0)
-            left = side.residual(placed, 1.0)
+            placed = self.u + (side.expand(unknowns) + side.prescribed(share) - here)
+            left = side.residual(placed, share)
             found.append((left.reduced, placed, left.force))
         rows, moved, force = (scale * (up - down) for down, up in zip(*found, strict=True))
         return rows, moved, force

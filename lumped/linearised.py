@@ -158,6 +158,9 @@ def linearise(scene: AnyScene, calibration: Calibration | None = None, about: Ab
     """
     scene = _last_commands(scene_of(scene))
     require_static(scene, "a linear system about the flat sheet" if about == "flat" else "")
+    if about == "flat":
+        flat = (s.replace(curvature=0.0) if isinstance(s, Curved) else s for s in scene.supports)
+        scene = scene.replace(supports=tuple(flat))
     require_no_branches(scene.material, "a linear system")
     calibration = calibration or default(scene)
     problem = build_problem(scene, calibration)

@@ -88,13 +88,14 @@ def solve_many(
     Raises
     ------
     BadInput
-        For numbers of designs that differ between names.
+        For numbers of designs that differ between names, unknown fields and fields of another shape.
     """
     sheet = Differentiable(scene, calibration, calibrate)
     counts = {len(values) for values in designs.values()}
     if len(counts) != 1:
         raise BadInput(f"designs: {sorted(counts)} values: equal numbers of values are needed")
     start, count = sheet.solve({}), counts.pop()
+    sheet.checked({name: values[0] for name, values in designs.items() if count})
     out, done = np.full((count, *start.shape), np.nan), np.zeros(count, dtype=bool)
 
     def solved(number: int) -> Status:

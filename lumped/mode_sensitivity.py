@@ -26,17 +26,16 @@ INERT = (DENSITY, THICKNESS, FORCES)
 
 
 class ModeGradient(Mapping[str, Any]):
-    """df/dθ [Hz per unit] by name, of the mode (m,) of an equilibrium; squared: ω² [1/s²]; loaded: whether
-    about its shape under load, which changes too; inertia: makes Tᵀ M T (m, m) of a problem with springs."""
+    """df/dθ [Hz per unit] by name, of the mode (m,) of an equilibrium; squared: ω² [1/s²]; inertia: makes
+    Tᵀ M T (m, m) of a problem with springs. A shape under load changes too."""
 
-    def __init__(
-        self, of: Equilibrium, mode: np.ndarray, squared: float, loaded: bool, inertia: Callable[..., Any]
-    ):
+    def __init__(self, of: Equilibrium, mode: np.ndarray, squared: float, inertia: Callable[..., Any]):
         problem, u, shape, none = of.problem, of.u, of.problem.expand(mode), np.zeros_like(of.u)
         step = SMALL * problem.scene.sheet.thickness / np.abs(shape).max()
         ends = [(u + end * shape, 0.5 / end) for end in (step, -step)]
-        self._terms = [(Gradient(Equilibrium(of.base, at), none, mode), -by) for at, by in ends]
-        if loaded:
+        states = [(Equilibrium(of.base, at, share=of.share), by) for at, by in ends]
+        self._terms = [(Gradient(state, none, mode), -by) for state, by in states]
+        if of.share:
             with one_blas_thread():
                 third = sum(by * problem.system.apply(problem.tangent(at, 1.0), shape) for at, by in ends)
             self._terms.append((of.pullback(np.asarray(third)).at_rest(), 1.0))

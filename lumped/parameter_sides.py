@@ -16,12 +16,14 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import MAKERS, Calibration
+from lumped.calibration.cell_by_cell import with_shares
 from lumped.calibration.closed_form import NoClosedForm
 from lumped.calibration.consistent import springs_of_sheets
 from lumped.pretension import calibrated_at_rest
 from lumped.sections import sections_of
+from sheetbench.choices import CALIBRATIONS
 from sheetbench.errors import BadInput
-from sheetbench.scenes import Scene
+from sheetbench.scenes import Scene, Sheet
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.meaning.parameters import FIBRES, OF_LAWS, parameter, put, short_name
 
@@ -88,22 +90,32 @@ def of_changed(
     return [*zip(scenes, springs, strict=True)]
 
 
-def _calibrated(calibration: Calibration, scenes: Sequence[Scene]) -> list[Calibration]:
-    """Return the springs of scenes by a calibration's method, on its grid; of isotropic sheets without parts
-    in one pass."""
+def same_method(calibration: Calibration, scene: Scene) -> Callable[[Sheet], Calibration]:
+    """Return the function that calibrates a sheet with the scene's material and parts by a calibration's
+    method and options, on its grid. Raises BadInput for fitted springs and a scene's table."""
     method, grid, grading = calibration.method, calibration.grid, calibration.grading
     if method not in MAKERS:
         raise BadInput(f"springs of calibration '{method}' do not follow from the sheet and its material")
-    plain = calibration.cells is None and not (grading or scenes[0].natural)
-    if plain and method.startswith("consistent"):
+    given = {"grading": grading or None, "cells": sections_of(scene, grid, grading)}
+    own: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+    own |= dict(calibration.options)
+    shared = None if "cells" in CALIBRATIONS[method].takes else own.pop("cells", None)
+
+    def calibrate(sheet: Sheet) -> Calibration:
+        found = replace(MAKERS[method](sheet, scene.material, grid, **own), options=calibration.options)
+        return found if shared is None else with_shares(found, sheet, scene.material, shared)
+
+    return calibrate
+
+
+def _calibrated(calibration: Calibration, scenes: Sequence[Scene]) -> list[Calibration]:
+    """Return the springs of scenes by a calibration's method; of isotropic sheets without parts in one
+    pass."""
+    method, grid = calibration.method, calibration.grid
+    with_parts = calibration.cells is not None or scenes[0].natural or scenes[0].patches  # which may grow
+    if method.startswith("consistent") and not (with_parts or calibration.grading or calibration.options):
         with suppress(NoClosedForm):
             sheets = [(sheet_at_rest(one), one.material) for one in scenes]
             found = springs_of_sheets(sheets, grid, method)
             return [replace(calibration, springs=one.table()) for one in found]
-
-    def of(scene: Scene) -> Calibration:
-        given = {"grading": grading or None, "cells": sections_of(scene, grid, grading)}
-        own: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
-        return calibrated_at_rest(scene, lambda sheet: MAKERS[method](sheet, scene.material, grid, **own))
-
-    return [*map(of, scenes)]
+    return [calibrated_at_rest(one, same_method(calibration, one)) for one in scenes]

@@ -64,7 +64,12 @@ def calibrated_at_rest(scene: Scene, calibrate: Callable[[Sheet], Calibration]) 
         Springs of the sheet at rest. The size at rest under a pretension follows from springs that are
         calibrated with the linear law's size first.
     """
-    springs = calibrate(sheet_at_rest(scene))
+    return calibrate(size_at_rest(scene, calibrate))
+
+
+def size_at_rest(scene: Scene, calibrate: Callable[[Sheet], Calibration]) -> Sheet:
+    """Return the sheet of a scene at its size at rest; `calibrate` is called under a pretension alone."""
+    sheet = sheet_at_rest(scene)
     if scene.natural is None or scene.natural.pretension is None:
-        return springs
-    return calibrate(sheet_at_rest(with_pretension_strain(scene, Assembly(scene.sheet, springs))))
+        return sheet
+    return sheet_at_rest(with_pretension_strain(scene, Assembly(scene.sheet, calibrate(sheet))))

@@ -94,11 +94,10 @@ class Differentiable:
     def path(self, values: Mapping[str, Any], near: np.ndarray | None) -> tuple[Equilibrium, LatticePath]:
         """Return the end of the path to the equilibrium with the given values, sought first from `near` (n,
         3), and the path."""
-        base, scene, springs, of_cells = self._base, self.scene, self.calibration, (FIELD, FORCES)
-        fields = {name: np.asarray(v, float) for name, v in values.items() if name.startswith(of_cells)}
-        for name in values.keys() - fields.keys():
-            change = [(name, float(values[name]))]
-            ((scene, springs),) = of_changed(scene, springs, change, base.calibrate)
+        base, scene, springs, numbers = self._base, self.scene, self.calibration, self.checked(values)
+        fields = {name: numbers.pop(name) for name in values if name.startswith(FIELD) or name == FORCES}
+        for name, value in numbers.items():
+            ((scene, springs),) = of_changed(scene, springs, [(name, value.item())], base.calibrate)
         if scene is not self.scene:
             base = Base(scene, springs, base.calibrate)
         problem = base.with_values(fields)
@@ -108,6 +107,17 @@ class Differentiable:
             if near is not None and path.status is not Status.CONVERGED:
                 path = solve_path(problem)
         return Equilibrium(base, path.state.u, fields, problem), path
+
+    def checked(self, values: Mapping[str, Any]) -> dict[str, np.ndarray]:
+        """Return values as arrays. Raises BadInput for an unknown field, and for one of another shape."""
+        arrays = {name: np.asarray(value, dtype=float) for name, value in values.items()}
+        for name, array in arrays.items():
+            shape = array.shape if array.size == 1 else ()
+            if name.startswith(FIELD) or name == FORCES:
+                shape = (self.problem.loads.dead if name == FORCES else self.cells.value(name, {})).shape
+            if array.shape != shape:
+                raise BadInput(f"{name}: shape {array.shape}; {shape} is needed")
+        return arrays
 
     def at_points(self, points: np.ndarray, names: Iterable[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Return the scene's own displacement (p, 3) at plan points (p, 2), and its derivatives by name."""

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from lumped.calibration import Calibration, default
-from lumped.gradient import Equilibrium
+from lumped.gradient import Base, Equilibrium
 from lumped.masses import Inertia, mass_matrix
 from lumped.mid_surface import MidSurface
 from lumped.mode_sensitivity import ModeGradient
@@ -156,8 +156,8 @@ def modes(
 
     def gradient(number: int) -> ModeGradient:
         mode, squared = vectors[:, rigid + number - 1], float(values[rigid + number - 1])
-        of, size = Equilibrium.of(bare, calibration, at), np.sqrt(mode @ (mass @ mode))
-        return ModeGradient(of, mode / size, squared, loaded, mass_of)
+        of = Equilibrium(Base.of(bare, calibration), at, share=float(loaded))
+        return ModeGradient(of, mode / np.sqrt(mode @ (mass @ mode)), squared, mass_of)
 
     gradient_of = None if problem.prestrained and not loaded else gradient
     surface = partial(problem.middle, at)

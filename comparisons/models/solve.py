@@ -8,7 +8,7 @@ calibration of a lattice counts as set-up.
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache
 from subprocess import DEVNULL, Popen
 from typing import Any, Literal
 
@@ -82,9 +82,8 @@ def _solve(model: Resolved[Any], watch: OnIteration | None, near: Any = None) ->
         import lumped
 
         branch: Literal["stable", "path"] = "stable" if spec.branch == "buckled" else "path"
-        calibrate = None if model.fitted or spec.calibration is None else partial(_springs, model)
-        keywords: dict[str, Any] = {"linear": spec.linear, "branch": branch, "calibrate": calibrate}
-        solution = lumped.solve(scene, model.springs, near=near, progress=watch, **keywords)
+        options: dict[str, Any] = {"linear": spec.linear, "branch": branch}
+        solution = lumped.solve(scene, model.springs, near=near, progress=watch, **options)
         return replace(solution, settings={**solution.settings, **model.reasons})
     if isinstance(spec, Elements):
         import fem_reference
@@ -99,11 +98,6 @@ def _solve(model: Resolved[Any], watch: OnIteration | None, near: Any = None) ->
             )
     outside = plugins.plugin(spec.model)
     return plugins.answer(outside, scene, plugins.settings_of(outside, spec.settings))
-
-
-def _springs(model: Resolved[Any], scene: Scene) -> Any:
-    """Return the springs of a scene with other parameters by the model's choices."""
-    return model.on(scene).springs
 
 
 def _unanswered(scene: Scene, spec: Elements, reason: str) -> Solution:

@@ -42,6 +42,8 @@ class Calibration(Answer):
         Sections of cells that differ or have fibres.
     of_material : bool, default False
         Whether `cells` follow from the material alone, without patches, layers and cutouts of a scene.
+    options : tuple of (str, float), optional
+        Options k [N/m] and layer_distance [m] that the method was given, for springs of a changed scene.
     """
 
     file_name = "calibration"
@@ -55,6 +57,7 @@ class Calibration(Answer):
     grading: Graded = 0.0
     cells: CellSection | None = None
     of_material: bool = False
+    options: tuple[tuple[str, float], ...] = ()
 
     @property
     def present(self) -> np.ndarray | None:

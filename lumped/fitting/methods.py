@@ -1,6 +1,7 @@
 """All calibration methods by name, including fits to data, and the function `calibrate` that calls them."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -95,4 +96,6 @@ def calibrate(
         if name in UNITS:
             require_positive(name, value, UNITS[name])
     with one_blas_thread():
-        return MAKERS[method](sheet, material, grid_of(sheet, grid), **options)
+        found = MAKERS[method](sheet, material, grid_of(sheet, grid), **options)
+    given = tuple((name, options[name]) for name in UNITS if name in options)
+    return replace(found, options=given) if given else found

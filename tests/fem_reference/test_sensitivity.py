@@ -208,6 +208,7 @@ def test_field_over_a_patch_is_the_patch():
 
 
 FREQUENCIES = [("plain", "plate", "flat"), ("laminate", "shell", "flat"), ("payload", "shell", "flat")]
+FREQUENCIES += [("plane", "shell", "flat")]  # which is no part of the flat sheet
 FREQUENCIES += [(name, "shell", "deformed") for name in ("natural", "payload", "tilted")]
 
 

@@ -15,7 +15,7 @@ from lumped.statics.build import build_problem
 from lumped.statics.solver import solve_path
 from sheetbench import scenes
 from sheetbench.errors import BadInput, Impossible, NoEquilibrium
-from sheetbench.scenes import Clamped, EdgeLoad, Mass, Material, PointLoad, Pressure
+from sheetbench.scenes import Clamped, EdgeLoad, Hinged, Mass, Material, PointLoad, Pressure
 from sheetbench.scenes.meaning.natural_state import sheet_at_rest
 from sheetbench.scenes.meaning.parameters import parameter, put
 from sheetbench.scenes.objects.cutouts import Cutout
@@ -57,7 +57,6 @@ def test_every_spring_constant(grid):
     u, found = forward(scene, springs, names)
     for name in names:
         value = springs.constants.value(name)
-
         up, down = (
             lumped.solve(scene, springs.with_constant(name, value + h)).displacement(scene.probe_points())
             for h in (1e-4 * value, -1e-4 * value)
@@ -79,6 +78,30 @@ def test_the_tilt_of_one_of_two_clamps_that_share_a_corner_is_refused():
     scene = scene_of("two-edges-clamped")
     with pytest.raises(ValueError, match=r"tilt_x0.*corner"):
         forward(scene, calibrated(scene, GRID), ["tilt_x0"])
+
+
+def test_springs_of_a_changed_scene_have_the_options_of_its_own():
+    scene = scene_of("one-edge-clamped", cutouts=(Cutout(shape=HOLE),), probes={"P": (0.188, 0.18)})
+
+    def springs_of(scene):
+        springs = lumped.calibrate(scene.sheet, scene.material, 5, "uniform", k=3e4)
+        return lumped.with_shares(springs, scene.sheet, scene.material, lumped.sections_of(scene, (5, 5, 2)))
+
+    _, found = forward(scene, springs_of(scene), ["young", "thickness"])
+    assert not found["young"].any()
+    ends = (put(scene, "thickness", h) for h in (3.0003e-3, 2.9997e-3))
+    up, down = (lumped.solve(one, springs_of(one)).displacement(scene.probe_points()) for one in ends)
+    assert_close(found["thickness"], (up - down) / 6e-7, within=1e-6)
+
+
+def test_cells_under_pretension_have_derivatives_by_their_thickness():
+    held = tuple(Hinged(edge=edge) for edge in ("x0", "x1", "y0"))
+    scene = scene_of("one-edge-clamped", supports=held, natural=Natural(pretension=(20.0, 10.0)))
+    springs = lumped.calibrated_at_rest(scene, lambda sheet: lumped.calibrate(sheet, scene.material, 5))
+    of, h = lumped.Differentiable(scene, springs), 1e-4
+    found = np.sum(of.pullback(np.ones((50, 3)))["cells.thickness"] * of.base["cells.thickness"])
+    up, down = (of.solve({"cells.thickness": of.base["cells.thickness"] * n}).sum() for n in (1 + h, 1 - h))
+    assert found == pytest.approx((up - down) / (2.0 * h), rel=1e-6)
 
 
 FIBRES = {"young_1": 2e7, "young_2": 1e6, "poisson_12": 0.3, "density": 1000.0, "angle": 0.4}
@@ -321,14 +344,15 @@ def test_an_answer_has_the_gradient_of_a_component_an_array_and_a_function():
 
 @pytest.mark.parametrize("about", ["flat", "deformed"])
 def test_derivatives_of_a_frequency_are_those_of_differences(about):
-    scene = sheet(0.2, 0.13, 0.003, 5e6, 0.35, 1100.0, weight=9.81)
+    tilted = (Clamped(edge="x0", tilt=0.1),)  # which moves nothing about the flat sheet
+    scene = sheet(0.2, 0.13, 0.003, 5e6, 0.35, 1100.0, weight=9.81, supports=tilted)
 
     def modes(scene):
         return lumped.modes(scene, calibrated(scene, GRID), 3, about=about)
 
     found = modes(scene).sensitivity(2)
-    loaded = ("gravity.z", "tilt_x0") if about == "deformed" else ()
-    for name in ("young", "poisson", "density", "thickness", *loaded):
+    loaded = ("gravity.z",) if about == "deformed" else ()
+    for name in ("young", "poisson", "density", "thickness", "tilt_x0", *loaded):
         value = parameter(scene, name).value
         h = 1e-4 * (abs(value) or 1.0)
         up, down = (modes(put(scene, name, at)).frequencies[1] for at in (value + h, value - h))

@@ -40,3 +40,19 @@ def test_other_values_go_along_the_load_path_and_what_ends_otherwise_says_how():
     assert np.isfinite(found.displacement[0]).all() and np.isnan(found.displacement[1]).all()
     with pytest.raises(BadInput, match="equal numbers of values"):
         lumped.solve_many(scene, {"density": np.ones(2), "young": np.ones(3)})
+
+
+@pytest.mark.parametrize("solve", [lumped.Differentiable("one-edge-clamped").solve, None])
+@pytest.mark.parametrize(
+    "name, shape, said",
+    [
+        ("cells.young", (7, 8), r"cells\.young: shape \(7, 8\); \(8, 8\) is needed"),
+        ("forces", (3,), r"forces: shape \(3,\); \(162, 3\) is needed"),
+        ("cells.stiffness", (8, 8), r"cells\.stiffness: choose from cells\.young"),
+        ("young", (2,), r"young: shape \(2,\); \(\) is needed"),
+    ],
+)
+def test_values_of_another_name_or_shape_are_refused(solve, name, shape, said):
+    values = np.ones((1, *shape))
+    with pytest.raises(BadInput, match=said):
+        solve({name: values[0]}) if solve else lumped.solve_many("one-edge-clamped", {name: values})

@@ -7,7 +7,8 @@ from lattice_cases import MATERIAL
 
 import lumped
 from sheetbench.errors import BadInput
-from sheetbench.scenes import FactorTable, Patch
+from sheetbench.scenes import Clamped, Curved, FactorTable, Patch, load
+from sheetbench.scenes.meaning.parameters import put
 from sheetbench.scenes.objects.natural import Natural
 
 RAMP = FactorTable(time=(0.0, 0.1), factor=(0.0, 1.0))
@@ -62,3 +63,24 @@ def test_a_muscle_is_an_input_of_a_linear_system():
     np.testing.assert_allclose(by["patch1.natural.kxx"][0], slope, rtol=1e-5, atol=1e-9)
     curvatures = ("natural.kxx", "natural.kyy", "natural.kxy")
     assert lumped.linearise(cantilever(Natural())).inputs[-3:] == curvatures
+
+
+def test_inputs_about_the_flat_sheet_depend_on_no_shape_of_its_supports():
+    def flat(curvature, tilt):
+        held = Curved(edge="x0", curvature=curvature), Clamped(edge="x1", tilt=tilt)
+        scene = sheet(0.2, 0.1, 0.002, supports=held, natural=Natural(curvature=(1.0, 0.0, 0.0)))
+        return lumped.linearise(scene, about="flat")
+
+    bent, plain = flat(4.0, 0.2), flat(0.0, 0.0)
+    assert {"x0 curvature", "natural.kxx"} <= {*bent.inputs} and bent.inputs == plain.inputs
+    assert np.allclose(bent.force, plain.force, rtol=1e-6, atol=1e-9 * np.abs(plain.force).max())
+
+
+def test_a_muscle_at_rest_has_a_derivative_by_its_growth():
+    """Its cells are like all others until it grows."""
+    scene, name = load("muscle-bands"), "patch1.natural.exx"
+    at = scene.probe_points()
+    _, by = lumped.Differentiable(scene).at_points(at, [name])
+    up, down = (lumped.solve(put(scene, name, end)).displacement(at) for end in (1e-5, -1e-5))
+    slope = (up - down) / 2e-5
+    np.testing.assert_allclose(by[name], slope, rtol=0.0, atol=1e-4 * np.abs(slope).max())

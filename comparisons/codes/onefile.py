@@ -35,11 +35,11 @@ TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the las
 
 
 class Program(NamedTuple):
-    """texts: the files by name; inputs: unit and start of each, by their numbers in C; outputs: units; step:
-    [s]."""
+    """texts: the files by name; inputs: unit and start of each, None of one that a history sets, by their
+    numbers in C; outputs: units; step: [s]."""
 
     texts: dict[str, str]
-    inputs: dict[str, tuple[str, float]]
+    inputs: dict[str, tuple[str, float | None]]
     outputs: dict[str, str]
     step: float
 
@@ -52,7 +52,7 @@ def program(
     require_choice("--precision", precision, tuple(PRECISIONS))
     if scene.actuators:
         own = ", ".join(scene.named_actuators())
-        raise BadInput(f"--for c: actuators: {own} bring equations of their own; not in the C program")
+        raise BadInput(f"--for c: actuators: {own}: not in the C program")
     require_no_branches(scene.material, "the C program")
     system, start = lumped.in_motion(scene, calibration)
     system.assembly.require_energy()
@@ -74,7 +74,8 @@ def program(
     steady = scene.gravity.acceleration if scene.gravity and not scene.gravity.history else (0.0, 0.0, 0.0)
     inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
     inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady, strict=True)}
-    inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
+    given = zip(names["SOURCE"], sources.values(), strict=True)
+    inputs |= {f"{source}.factor": ("", None if natural.history else 1.0) for source, natural in given}
     outputs = {f"{point}.u{axis}": "m" for point in names["POINT"] for axis in "xyz"}
     outputs |= {f"{body}.R{axis}": "N" for body in names["BODY"] for axis in "xyz"}
     outputs |= {f"energy.{name}": "J" for name in ENERGIES[:3]}
@@ -93,7 +94,7 @@ def program(
     tables.add("MOTION", np.reshape(motions, (-1, 3)).astype(int), "int")
     tables.add("HISTORY", [first for one in histories for first in tables.curves(one, "factor", 1)], "int")
     tables.add("KNOT", np.reshape(tables.knots, (-1, 6)), "double")
-    tables.add("INPUT", [start for _, start in inputs.values()])
+    tables.add("INPUT", [start or 0.0 for _, start in inputs.values()])
     tables.add("START", start.u if start.u.any() else start.u[:1])
     sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
     sizes |= {"SOURCES": len(sources), "LOADS": len(loads), "MASSES": n, "ROWS": size, "LAYERS": layers}
@@ -103,7 +104,7 @@ def program(
     numbers += [f"SHEET_{kind}_{name} = {k}" for kind, of in names.items() for k, name in enumerate(of)]
     rubber = system.assembly.any_strain
     texts = dict(
-        title=re.sub(r"[^ -~]|\*/", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
+        title=re.sub(r"[^ -~]|\*/|/\*", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
         version=version(), real=tables.real, numbers=",\n  ".join(numbers), step=step, steps=steps,
         largest=f"{limit.step:.4g}", safety=f"{step / limit.step:.3g}", slip=SLIP_SPEED**2,
         libm="sqrt" + rubber * ", exp, log", tables="\n".join(tables.lines),

@@ -248,7 +248,8 @@ class Contact:
 
     def stiffest(self, mass: np.ndarray) -> float:
         """Return a bound of the increase of squared frequencies ω² [1/s²] by contact; mass: (n,) [kg]."""
-        return float((self._of_masses(self.area * self.share * self.full) / mass).max())
+        present = mass > 0.0
+        return float((self._of_masses(self.area * self.share * self.full)[present] / mass[present]).max())
 
     def move_freely(self, mass: np.ndarray, squared: float) -> None:
         """Set the stiffness in motion, relative to the springs' highest squared frequency [1/s²]."""

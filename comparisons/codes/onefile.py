@@ -72,6 +72,7 @@ def program(
     sources = {source.name: source.of for source in sources_of(scene)}
     names = {"POINT": identifiers(scene.probes), "BODY": identifiers(bodies), "SOURCE": identifiers(sources)}
     steady = scene.gravity.acceleration if scene.gravity and not scene.gravity.history else (0.0, 0.0, 0.0)
+    inputs: dict[str, tuple[str, float | None]]
     inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
     inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady, strict=True)}
     given = zip(names["SOURCE"], sources.values(), strict=True)
@@ -111,11 +112,9 @@ def program(
         sizes=", ".join(f"{name} = {int(size)}" for name, size in tables.sizes.items()),
         rubber=script("rubber.c") if rubber else "#define rubber(d, g, k, on) 0",
         patch=script("patch.c") if tables.sizes["BLOCKS"] else "#define patch(s, of) ((void)(of), (real)0)",
-        **{kind: ", ".join(of) or "none" for kind, of in names.items()},
     )  # fmt: skip
     lines = [",".join(["time", *outputs]), *(",".join(map(repr, row)) for row in rows)]
-    templates = {"README.md": "sheet.md", **{name: name for name in ("sheet.h", "sheet.c", "main.c")}}
-    files = {name: Template(script(of)).substitute(texts) for name, of in templates.items()}
+    files = {name: Template(script(name)).substitute(texts) for name in ("sheet.h", "sheet.c", "main.c")}
     files["check.csv"] = "\n".join(lines) + "\n"
     return Program(files, inputs, outputs, step)
 
@@ -175,11 +174,10 @@ def add_masses(tables: Tables, system: System) -> None:
     """Add matrices of columns of masses along each axis, from forces to free accelerations and from
     velocities to momenta; masses' damping, the supports that move them, and sums of the supports' forces."""
     constraints, p, n = system.problem.constraints, system.assembly.lattice.grid[2], len(system.lattice_mass)
-    matrices = []
-    for apply in (system.accelerate, system.momentum):
-        columns = [apply(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
-        matrices.append(np.stack(columns, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
-    tables.add_distinct("COLUMN", np.concatenate(matrices, axis=1))
+    of_layers = np.tile(np.eye(p)[:, :, None], (1, n // p, 3))
+    both = [[apply(one) for one in of_layers] for apply in (system.accelerate, system.momentum)]
+    matrices = np.reshape(both, (2, p, -1, p, 3)).transpose(2, 4, 0, 3, 1)
+    tables.add_distinct("COLUMN", matrices.reshape(-1, 2 * p * p))
     tables.sizes["RATED"] = bool(system.damping.rate.any())
     tables.add("RATE", system.damping.rate)
     owner, supports = np.zeros((n, 3), int), enumerate(named(system.scene.supports).items(), start=1)

@@ -137,7 +137,7 @@ def test_the_program_takes_the_steps_that_lumped_takes(name, precision, near, re
 
 NIGHTLY = [
     pytest.param(name, marks=pytest.mark.nightly)
-    for name in ("lifted", "blown over time", "table of dampers")
+    for name in ("lifted", "blown over time", "table of dampers", "air")
 ]
 
 
@@ -262,7 +262,7 @@ def test_names_that_are_alike_in_c_are_numbered():
 def test_the_verb_writes_it(tmp_path, capsys):
     wanted = ["calibrate", "two-edges-settling", "--grid", "3", "--for", "c", "--precision", "single"]
     assert run(*wanted, "--out", str(tmp_path)) == 0
-    files = {"sheet.h", "sheet.c", "main.c", "check.csv", "README.md"}
+    files = {"sheet.h", "sheet.c", "main.c", "check.csv"}
     assert files <= {path.name for path in tmp_path.iterdir()}
     assert "typedef float sheet_real" in (tmp_path / "sheet.h").read_text()
     assert run("calibrate", "two-edges-settling", "--precision", "single") == 2

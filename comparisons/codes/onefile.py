@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from string import Template
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +17,13 @@ import lumped
 from comparisons.codes.c_tables import PRECISIONS, WHOLE, Tables, identifiers
 from comparisons.codes.files import script
 from sheetbench.answers.history import ENERGIES
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, require_choice
+from sheetbench.numerics.time.method import Advance
+from sheetbench.runs.record import width
+from sheetbench.runs.run import Run
+from sheetbench.runs.schedule import Schedule
+from sheetbench.runs.store import MemoryStore
 from sheetbench.scenes import Scene, require_no_branches, tilt_axes
 from sheetbench.scenes.meaning.natural_state import sources_of
 from sheetbench.scenes.objects.obstacles import SLIP_SPEED, Plane
@@ -29,7 +34,6 @@ from sheetbench.sources import version
 if TYPE_CHECKING:
     from lumped import Calibration, State, System
 
-LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
 
@@ -121,22 +125,16 @@ def program(
 
 def samples(system: System, start: State, step: float, steps: int) -> list[list[float]]:
     """Return time [s], probes [m], forces of supports and obstacles [N] and energies [J] of some of so many
-    of `lumped`'s own steps [s]. Raises StepFailed."""
-    probes = lumped.MidSurface(system.assembly.lattice, system.scene.probe_points())
-    rows, state, integrator = [], start, lumped.INTEGRATORS["verlet"](system, step)
-    for left in (0, *[steps // MOMENTS] * MOMENTS):
-        while left:
-            advance = integrator.march(state, step, left)
-            state, left = advance.state, left - advance.steps
-        if not (system.assembly.any_strain or system.assembly.links.largest_strain(state.u) < LARGEST):
-            raise lumped.StepFailed(f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times its length")
-        acceleration = state.a + system.prescribed.support_acceleration(state.time)
-        energies, exerted = system.balance(replace(state, a=acceleration))
-        held, at = system.problem.constraints.reactions(exerted)[0], (state.u, system.drive(state.time))
-        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.contacts]
-        row = [[state.time], *probes.of(state.u), *held.values(), *pushed, [*energies.values()]]
-        rows.append(np.concatenate(row).tolist())
-    return rows
+    of `lumped`'s own steps [s]. Raises StepFailed for a run that `lumped.simulate` ends before."""
+    observer, method = lumped.LatticeObserver(system), lumped.INTEGRATORS["verlet"](system, step)
+    method.kinks = np.empty(0)  # the program's steps pass over them
+    store = MemoryStore({"samples": (width(observer.columns),)})
+    run = Run(method, observer, Schedule(MOMENTS, steps // MOMENTS * step), store, (), None)
+    status, message = run.finish(lambda: Advance(start, 0.0, 0.0))
+    if status not in (Status.CONVERGED, Status.STRAIN_OUTSIDE_MODEL):
+        raise lumped.StepFailed(message)
+    rows = store.rows("samples")
+    return np.hstack([rows[:, :1], rows[:, 6:], rows[:, 1:4]]).tolist()
 
 
 def add_springs(tables: Tables, system: System) -> None:

@@ -237,9 +237,11 @@ def test_inputs_are_what_a_scene_would_say(what, tmp_path):
     assert np.abs(left[:3]).max() > 0.0 and not sheet.row()[:3].any()  # the other has not moved
 
 
+CRUSHED = PointLoad(at=(0.2, 0.05), force=(-100.0, 0.0, 20.0))
 SLOW = [{"time": 0.1, "share": 0.2}]
 REFUSED = {
     "actuators: x1": (scenes.load("actuated-edge"), {"grid": 3}),
+    "turned inside out": (STRIP.replace(loads=(CRUSHED,)), {"grid": (5, 3)}),
     "branches": (STRIP.replace(material=SILICONE.replace(relaxation=SLOW)), {"grid": (5, 3)}),
 }
 

@@ -52,6 +52,16 @@ def test_energy_of_a_strip_that_bounces(integrator, duration, options, within):
 NOTCH = {"shape": {"rectangle": {"x": (0.12, 0.2), "y": (0.02, 0.05)}}}  # with masses in it, of none
 
 
+def test_a_dashpot_that_touches_a_held_edge_alone_does_not_shorten_steps():
+    limits = []
+    for tau in (0.0, 0.3):
+        place = (0.0, 0.0, -0.001 * np.hypot(1.0, 0.05))
+        plane = Plane(position=place, normal=(0.05, 0.0, 1.0), contact_damping=tau)
+        history = run(STRIP.replace(obstacles=(plane,)), 1e-3, "verlet")
+        limits.append(history.settings["largest_step"])
+    assert limits[0] == limits[1]
+
+
 @pytest.mark.parametrize("cutouts", [(), (NOTCH,)])
 def test_explicit_steps_are_hardly_shorter(cutouts):
     scene = STRIP.replace(cutouts=cutouts)

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from lumped.dynamics.integrator import Integrator, StepFailed
     from lumped.dynamics.integrators import INTEGRATORS, require_integrator
     from lumped.dynamics.runs.initial import in_motion
+    from lumped.dynamics.runs.observer import LatticeObserver
     from lumped.dynamics.runs.plan import explicit_limit, shortest_period
     from lumped.dynamics.runs.simulation import simulate
     from lumped.dynamics.system import State, System
@@ -47,6 +48,7 @@ __all__ = [
     "Identifiability",
     "Inertia",
     "Integrator",
+    "LatticeObserver",
     "Linear",
     "MidSurface",
     "ModalTarget",

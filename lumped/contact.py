@@ -252,7 +252,8 @@ class Contact:
 
     def stiffest(self, mass: np.ndarray) -> float:
         """Return a bound of the increase of squared frequencies ω² [1/s²] by contact; mass: (n,) [kg]."""
-        return float((self._of_masses(self.area * self.share * self.full) / mass).max())
+        present = mass > 0.0
+        return float((self._of_masses(self.area * self.share * self.full)[present] / mass[present]).max())
 
     def set_motion_penalty(self, mass: np.ndarray, squared: float) -> None:
         """Set the penalty for a motion; squared: the springs' highest ω² [1/s²], which limits its

@@ -219,7 +219,7 @@ def test_the_page_in_the_browser_steps_a_lattice_beside_the_shells_answer(size, 
     threading.Thread(target=server.serve_forever, daemon=True).start()
     address = f"http://127.0.0.1:{server.server_port}/index.html"
     look = {"width": size[0], "height": size[1]}
-    with opened(browser, address, offline=False, viewport=look) as (page, _):
+    with opened(browser, address, offline=False, viewport=look) as (page, watch):
         page.wait_for_function("window.measured && measured.time > 4", timeout=60_000)
         rest = page.evaluate("measured")
         assert rest["corner"] == pytest.approx(rest["known"], rel=0.02)
@@ -233,6 +233,7 @@ def test_the_page_in_the_browser_steps_a_lattice_beside_the_shells_answer(size, 
         page.mouse.up()
         page.locator("#gravity").fill("0")
         page.wait_for_function("measured.known === 0 && Math.abs(measured.corner) < 2e-3", timeout=60_000)
+        assert not watch.troubles
     server.shutdown()
 
 

@@ -71,5 +71,10 @@ class Tables:
 
 def identifiers(names: Iterable[str]) -> list[str]:
     """Return names of letters, digits and underscores, with their number where two would be equal."""
-    plain = [re.sub(r"[^A-Za-z0-9]+", "_", name) for name in names]
-    return [name if name not in plain[:n] else f"{name}_{n}" for n, name in enumerate(plain)]
+    found: list[str] = []
+    for number, name in enumerate(names):
+        plain = re.sub(r"[^A-Za-z0-9]+", "_", name)
+        while plain in found:
+            plain += f"_{number}"
+        found.append(plain)
+    return found

@@ -43,13 +43,14 @@ MODEL = """<fmiModelDescription fmiVersion="3.0" modelName={name} instantiationT
 
 
 def description(name: str, of: Program) -> str:
-    """Return the unit's modelDescription.xml, with variables numbered as in `scripts/fmi3.c`."""
+    """Return the unit's modelDescription.xml, with variables numbered as in `scripts/fmi3.c`, without inputs
+    that a history sets: a tool that writes all inputs would stop it."""
     kinds = ['"time" unit="s" causality="independent" variability="continuous"']
-    kinds += [f'"{x}" unit="{unit}" causality="input" start="{at!r}"' for x, (unit, at) in of.inputs.items()]
-    output = 'causality="output" initial="calculated"'
+    entry, output = '"{}" unit="{}" causality="input" start="{!r}"', 'causality="output" initial="calculated"'
+    kinds += ["" if at is None else entry.format(x, unit, at) for x, (unit, at) in of.inputs.items()]
     kinds += [f'"{x}" unit="{unit}" {output}' for x, unit in of.outputs.items()]
-    rows = [f'<Float64 valueReference="{n}" name={kind}/>' for n, kind in enumerate(kinds)]
-    numbers = range(1 + len(of.inputs), len(rows))
+    rows = [f'<Float64 valueReference="{n}" name={kind}/>' for n, kind in enumerate(kinds) if kind]
+    numbers = range(1 + len(of.inputs), len(kinds))
     entries = [f'<{kind} valueReference="{n}"/>' for kind in ("Output", "InitialUnknown") for n in numbers]
     return XML + MODEL.format(
         name=quoteattr(name),

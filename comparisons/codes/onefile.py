@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from string import Template
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +17,13 @@ import lumped
 from comparisons.codes.c_tables import PRECISIONS, WHOLE, Tables, identifiers
 from comparisons.codes.files import script
 from sheetbench.answers.history import ENERGIES
+from sheetbench.answers.solution import Status
 from sheetbench.errors import BadInput, require_choice
+from sheetbench.numerics.time.method import Advance
+from sheetbench.runs.record import width
+from sheetbench.runs.run import Run
+from sheetbench.runs.schedule import Schedule
+from sheetbench.runs.store import MemoryStore
 from sheetbench.scenes import Scene, require_no_branches, tilt_axes
 from sheetbench.scenes.meaning.natural_state import sources_of
 from sheetbench.scenes.objects.obstacles import SLIP_SPEED, Plane
@@ -29,17 +34,16 @@ from sheetbench.sources import version
 if TYPE_CHECKING:
     from lumped import Calibration, State, System
 
-LARGEST = 1.0  # strain of a spring in a run that succeeds, but of rubber
 CHECKED, FEW, MOMENTS = 2000, 200, 20  # steps, those of natural states that change, and samples of them
 TRIES, SHORTER = 5, 0.75  # steps to check by, and how much shorter than the last
 
 
 class Program(NamedTuple):
-    """texts: the files by name; inputs: unit and start of each, by their numbers in C; outputs: units; step:
-    [s]."""
+    """texts: the files by name; inputs: unit and start of each, None of one that a history sets, by their
+    numbers in C; outputs: units; step: [s]."""
 
     texts: dict[str, str]
-    inputs: dict[str, tuple[str, float]]
+    inputs: dict[str, tuple[str, float | None]]
     outputs: dict[str, str]
     step: float
 
@@ -52,7 +56,7 @@ def program(
     require_choice("--precision", precision, tuple(PRECISIONS))
     if scene.actuators:
         own = ", ".join(scene.named_actuators())
-        raise BadInput(f"--for c: actuators: {own} bring equations of their own; not in the C program")
+        raise BadInput(f"--for c: actuators: {own}: not in the C program")
     require_no_branches(scene.material, "the C program")
     system, start = lumped.in_motion(scene, calibration)
     system.assembly.require_energy()
@@ -60,21 +64,21 @@ def program(
     steps = FEW if system.growing is not None else steps
     for share in SHORTER ** np.arange(TRIES):
         step = float(tables.rounded(share * limit.advised))
-        try:
-            rows = samples(system, start, step, steps)
+        rows, fault = samples(system, start, step, steps)
+        if not fault:
             break
-        except lumped.StepFailed as error:
-            message = str(error)
     else:
-        raise BadInput(f"--for c: the check of its steps ends early: {message}")
+        raise BadInput(f"--for c: the check of its steps ends early: {fault}")
     scene, lattice = system.scene, system.assembly.lattice
     bodies = named(scene.supports) | scene.named_obstacles()
     sources = {source.name: source.of for source in sources_of(scene)}
     names = {"POINT": identifiers(scene.probes), "BODY": identifiers(bodies), "SOURCE": identifiers(sources)}
     steady = scene.gravity.acceleration if scene.gravity and not scene.gravity.history else (0.0, 0.0, 0.0)
+    inputs: dict[str, tuple[str, float | None]]
     inputs = {f"{point}.F{axis}": ("N", 0.0) for point in names["POINT"] for axis in "xyz"}
     inputs |= {f"gravity.{axis}": ("m/s2", g) for axis, g in zip("xyz", steady, strict=True)}
-    inputs |= {f"{source}.factor": ("", 1.0) for source in names["SOURCE"]}
+    given = zip(names["SOURCE"], sources.values(), strict=True)
+    inputs |= {f"{source}.factor": ("", None if natural.history else 1.0) for source, natural in given}
     outputs = {f"{point}.u{axis}": "m" for point in names["POINT"] for axis in "xyz"}
     outputs |= {f"{body}.R{axis}": "N" for body in names["BODY"] for axis in "xyz"}
     outputs |= {f"energy.{name}": "J" for name in ENERGIES[:3]}
@@ -93,7 +97,7 @@ def program(
     tables.add("MOTION", np.reshape(motions, (-1, 3)).astype(int), "int")
     tables.add("HISTORY", [first for one in histories for first in tables.curves(one, "factor", 1)], "int")
     tables.add("KNOT", np.reshape(tables.knots, (-1, 6)), "double")
-    tables.add("INPUT", [start for _, start in inputs.values()])
+    tables.add("INPUT", [start or 0.0 for _, start in inputs.values()])
     tables.add("START", start.u if start.u.any() else start.u[:1])
     sizes = {"POINTS": len(scene.probes), "SUPPORTS": len(scene.supports), "BODIES": len(bodies)}
     sizes |= {"SOURCES": len(sources), "LOADS": len(loads), "MASSES": n, "ROWS": size, "LAYERS": layers}
@@ -103,40 +107,30 @@ def program(
     numbers += [f"SHEET_{kind}_{name} = {k}" for kind, of in names.items() for k, name in enumerate(of)]
     rubber = system.assembly.any_strain
     texts = dict(
-        title=re.sub(r"[^ -~]|\*/", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
+        title=re.sub(r"[^ -~]|\*/|/\*", "?", f"{scene.name}, {nx} x {ny} x {layers}, {calibration.method}"),
         version=version(), real=tables.real, numbers=",\n  ".join(numbers), step=step, steps=steps,
         largest=f"{limit.step:.4g}", safety=f"{step / limit.step:.3g}", slip=SLIP_SPEED**2,
         libm="sqrt" + rubber * ", exp, log", tables="\n".join(tables.lines),
         sizes=", ".join(f"{name} = {int(size)}" for name, size in tables.sizes.items()),
         rubber=script("rubber.c") if rubber else "#define rubber(d, g, k, on) 0",
         patch=script("patch.c") if tables.sizes["BLOCKS"] else "#define patch(s, of) ((void)(of), (real)0)",
-        **{kind: ", ".join(of) or "none" for kind, of in names.items()},
     )  # fmt: skip
-    lines = [",".join(["time", *outputs]), *(",".join(map(repr, row)) for row in rows)]
-    templates = {"README.md": "sheet.md", **{name: name for name in ("sheet.h", "sheet.c", "main.c")}}
-    files = {name: Template(script(of)).substitute(texts) for name, of in templates.items()}
+    lines = [",".join(["time", *outputs]), *(",".join(map(repr, row)) for row in rows.tolist())]
+    files = {name: Template(script(name)).substitute(texts) for name in ("sheet.h", "sheet.c", "main.c")}
     files["check.csv"] = "\n".join(lines) + "\n"
     return Program(files, inputs, outputs, step)
 
 
-def samples(system: System, start: State, step: float, steps: int) -> list[list[float]]:
+def samples(system: System, start: State, step: float, steps: int) -> tuple[np.ndarray, str]:
     """Return time [s], probes [m], forces of supports and obstacles [N] and energies [J] of some of so many
-    of `lumped`'s own steps [s]. Raises StepFailed."""
-    probes = lumped.MidSurface(system.assembly.lattice, system.scene.probe_points())
-    rows, state, integrator = [], start, lumped.INTEGRATORS["verlet"](system, step)
-    for left in (0, *[steps // MOMENTS] * MOMENTS):
-        while left:
-            advance = integrator.march(state, step, left)
-            state, left = advance.state, left - advance.steps
-        if not (system.assembly.any_strain or system.assembly.links.largest_strain(state.u) < LARGEST):
-            raise lumped.StepFailed(f"at {state.time:.4g} s a spring is {1 + LARGEST:g} times its length")
-        acceleration = state.a + system.prescribed.support_acceleration(state.time)
-        energies, exerted = system.balance(replace(state, a=acceleration))
-        held, at = system.problem.constraints.reactions(exerted)[0], (state.u, system.drive(state.time))
-        pushed = [item.exerted(at, state.v).sum(axis=0) for item in system.contacts]
-        row = [[state.time], *probes.of(state.u), *held.values(), *pushed, [*energies.values()]]
-        rows.append(np.concatenate(row).tolist())
-    return rows
+    of `lumped`'s own steps [s], and why `lumped.simulate` would end before, "" where it would not."""
+    observer, method = lumped.LatticeObserver(system), lumped.INTEGRATORS["verlet"](system, step)
+    method.kinks = np.empty(0)  # the program's steps pass over them
+    store = MemoryStore({"samples": (width(observer.columns),)})
+    run = Run(method, observer, Schedule(MOMENTS, steps // MOMENTS * step), store, (), None)
+    status, message = run.finish(lambda: Advance(start, 0.0, 0.0))
+    rows, sound = store.rows("samples"), status in (Status.CONVERGED, Status.STRAIN_OUTSIDE_MODEL)
+    return np.hstack([rows[:, :1], rows[:, 6:], rows[:, 1:4]]), message * (not sound)
 
 
 def add_springs(tables: Tables, system: System) -> None:
@@ -144,8 +138,8 @@ def add_springs(tables: Tables, system: System) -> None:
     springs: tuple[Any, ...] = system.assembly.springs[:4]
     (links, *families), dampers = springs, system.scene.dampers
     tau = system.scene.material.dashpot_time if dampers is None else 0.0
-    alone: Any = [] if dampers is None else system.damping.dampers[:1]
-    pairs = [(links, (1.0, tau)), *((of, (0.0, 1.0)) for of in alone)]  # shares of springs and dampers
+    pairs: Any = [(links, (1.0, tau))]  # shares of springs and dampers
+    pairs += [(of, (0.0, 1.0)) for of in system.damping.dampers if dampers]
     tables.sizes |= {"DAMPED": tau > 0.0 or len(pairs) > 1, "RUBBER": system.assembly.any_strain}
     tables.add("LINK", np.concatenate([of.nodes for of, _ in pairs]))
     rows = [[of.offset, np.linalg.norm(of.offset, axis=1), np.outer(of.stiffness, by)] for of, by in pairs]
@@ -174,11 +168,10 @@ def add_masses(tables: Tables, system: System) -> None:
     """Add matrices of columns of masses along each axis, from forces to free accelerations and from
     velocities to momenta; masses' damping, the supports that move them, and sums of the supports' forces."""
     constraints, p, n = system.problem.constraints, system.assembly.lattice.grid[2], len(system.lattice_mass)
-    matrices = []
-    for apply in (system.accelerate, system.momentum):
-        columns = [apply(np.repeat(np.arange(n) % p == q, 3).reshape(-1, 3) + 0.0) for q in range(p)]
-        matrices.append(np.stack(columns, axis=-1).reshape(-1, p, 3, p).swapaxes(1, 2).reshape(-1, p * p))
-    tables.add_distinct("COLUMN", np.concatenate(matrices, axis=1))
+    of_layers = np.tile(np.eye(p)[:, :, None], (1, n // p, 3))
+    both = [[apply(one) for one in of_layers] for apply in (system.accelerate, system.momentum)]
+    matrices = np.reshape(both, (2, p, -1, p, 3)).transpose(2, 4, 0, 3, 1)
+    tables.add_distinct("COLUMN", matrices.reshape(-1, 2 * p * p))
     tables.sizes["RATED"] = bool(system.damping.rate.any())
     tables.add("RATE", system.damping.rate)
     owner, supports = np.zeros((n, 3), int), enumerate(named(system.scene.supports).items(), start=1)

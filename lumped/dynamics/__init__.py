@@ -4,6 +4,7 @@ from lumped.dynamics.explicit.step_limit import StepLimit, step_limit, turn_limi
 from lumped.dynamics.integrator import Integrator, StepFailed
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator
 from lumped.dynamics.runs.initial import in_motion
+from lumped.dynamics.runs.observer import LatticeObserver
 from lumped.dynamics.runs.plan import explicit_limit, shortest_period
 from lumped.dynamics.runs.simulation import simulate
 from lumped.dynamics.system import State, System
@@ -11,6 +12,7 @@ from lumped.dynamics.system import State, System
 __all__ = [
     "INTEGRATORS",
     "Integrator",
+    "LatticeObserver",
     "State",
     "StepFailed",
     "StepLimit",

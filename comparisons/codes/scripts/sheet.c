@@ -180,7 +180,7 @@ static void forces(sheet *s) { /* of all that acts, inwards, at the velocity w *
     }
   }
   for (int i = 0; i < SHEET_AIR; i++) EACH(e) s->area[i][e] = 0;
-  for (int m = 0; SHEET_AIR && m < MIDDLES; m++) press(s, MIDDLE[m], COVER[m], s->area);
+  for (int m = 0; SHEET_AIR > 0 && m < MIDDLES; m++) press(s, MIDDLE[m], COVER[m], s->area);
   s->stored = contact(s), resist(s, s->w, 1), s->stored += springs(s, s->w, 1);
 }
 static double across(field x, int i, int e, int from) { /* a row of a column's inverse, from P on of its matrix, of masses */

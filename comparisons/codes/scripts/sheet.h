@@ -1,5 +1,6 @@
 /* $title
-   Written by sheetbench $version; C99, no library but $libm, no allocation. SI units, axes x, y, z. */
+   Written by sheetbench $version; C99, no library but $libm, no allocation, no globals. SI units; x, y in the sheet, z up.
+   cc -O3 main.c sheet.c -lm && ./a.out    steps a sheet and compares it with check.csv of sheetbench's own steps */
 #ifndef SHEET_H
 #define SHEET_H
 #ifdef __cplusplus
@@ -7,7 +8,8 @@ extern "C" {
 #endif
 typedef $real sheet_real;
 enum { $numbers };
-#define SHEET_STEP $step /* s; the limit about the start is $largest s, this is $safety of it, tried over $steps steps */
+#define SHEET_STEP $step /* s; the limit about the start is $largest s, this is $safety of it, tried over $steps steps; large
+   tension or stretch wants shorter ones */
 /* numbers of inputs: forces [N] of points by x, y, z, gravity [m/s^2], factors of natural states */
 enum { SHEET_GRAVITY = 3 * SHEET_POINTS, SHEET_FACTORS = SHEET_GRAVITY + 3, SHEET_INPUTS = SHEET_FACTORS + SHEET_SOURCES };
 /* of outputs, the columns of check.csv behind time: displacements [m] of points, forces [N] of bodies, energies [J] */
@@ -27,7 +29,7 @@ extern const sheet_real SHEET_REST[SHEET_ROWS][3]; /* m: places at rest, columns
 
 void sheet_reset(sheet *s);           /* to the start at t = 0; before anything else */
 void sheet_step(sheet *s, int count); /* so many steps of s->step */
-void sheet_set(sheet *s, int input, sheet_real value); /* from now on; forces are beside the scene's loads */
+void sheet_set(sheet *s, int input, sheet_real value); /* from now on, in place of a history; forces are beside the scene's loads */
 sheet_real sheet_get(sheet *s, int output);
 void sheet_set_force(sheet *s, int point, const sheet_real force[3]);
 void sheet_set_curvature(sheet *s, int source, sheet_real factor); /* times the scene's natural strain and curvature */

@@ -90,8 +90,8 @@ class FlatSystem:
         system, (rows, axes) = self._system, self._driven.T
         place, rate = np.zeros((2, len(times), *system.prescribed.components.shape))
         for moved, axis, course in system.prescribed.by_supports:
-            place[:, moved, axis] += course.at(times)[:, axis, None]
-            rate[:, moved, axis] += course.slope(times)[:, axis, None]
+            place[:, moved, axis] = course.at(times)[:, axis, None]
+            rate[:, moved, axis] = course.slope(times)[:, axis, None]
         if system.coupling is not None:
             for at, time in enumerate(times):
                 place[at] += system.coupling.prescribed_displacement(system.drive(time))

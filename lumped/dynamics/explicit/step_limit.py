@@ -94,7 +94,7 @@ def step_limit(system: System, u: np.ndarray, time: float = 0.0) -> StepLimit:
     ratio = 0.0
     if system.resists:
         damping = system.matrix(u, rest, time, 0.0, 1.0, 0.0)
-        ratio = _largest_eigenvalue(system, damping) / (2.0 * frequency) if damping.any() else 0.0
+        ratio = _largest_eigenvalue(system, damping) / (2.0 * frequency)
     exact = system.damping.proportional
     safety = TOUCHING if system.contacts else SAFETY
     return StepLimit(frequency, ratio, turn_limit(ratio, exact) / frequency, exact, safety)
@@ -113,8 +113,11 @@ def soften_contacts(system: System) -> None:
 def _largest_eigenvalue(system: System, blocks: np.ndarray) -> float:
     """Return the largest eigenvalue of M⁻¹A on the free motions, without multipliers, which have no mass."""
     size, moving = system.reduced_mass.shape[0], ~system.algebraic
+    matrix = system.problem.system.matrix(blocks)[moving][:, moving]
+    if not matrix.data.any():  # also of contact with a held edge alone
+        return 0.0
     value = eigsh(
-        system.problem.system.matrix(blocks)[moving][:, moving],
+        matrix,
         k=1,
         M=system.reduced_mass,
         Minv=LinearOperator((size, size), matvec=lambda b: system.solve_mass(b.ravel()), dtype=float),

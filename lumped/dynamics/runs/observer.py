@@ -41,7 +41,15 @@ class Observed(NamedTuple):
 
 
 class LatticeObserver:
-    """The observer (`sheetbench.runs.run`) of a system. drawn: rows of the displacement in a frame."""
+    """The observer (`sheetbench.runs.run`) of a system.
+
+    Parameters
+    ----------
+    system : System
+        Equations of motion.
+    drawn : ndarray, optional
+        Rows of the displacement in a frame; by default all.
+    """
 
     def __init__(self, system: System, drawn: np.ndarray | None = None):
         flat = np.zeros((system.assembly.pattern.size, 3))

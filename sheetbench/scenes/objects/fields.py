@@ -91,7 +91,7 @@ class SceneFields(Frozen, defer_build=True):
     x0 to x1."""
     dampers: DamperSet | None = None
     """The lattice's own dampers along its links in `simulate`, in place of the material's damping_time, which
-    area and strain springs keep."""
+    area and strain springs then lack too."""
     probes: Annotated[dict[str, PlanPoint], Unit("m")] = Field(default_factory=dict)
     """Named plan points [x, y] of the undeformed sheet where answers are compared; without this table P1 is
     the centre, P4 the corner farthest from the supports, P2 and P3 are the middles of the sides beside P4,

@@ -15,6 +15,7 @@ from exported import BLOWN, MOMENT, PULL, SCENES
 
 import lumped
 from comparisons.codes.c_tables import identifiers
+from comparisons.codes.fmu import description
 from comparisons.codes.onefile import program
 from sheetbench import scenes
 from sheetbench.errors import BadInput
@@ -24,7 +25,7 @@ from sheetbench.scenes.objects.springs import DamperSet
 STRICT = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-O2")
 needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc on this machine")
 SETTLING = scenes.load("two-edges-settling").replace(probes={"P4": (0.188, 0.188), "middle": (0.1, 0.09)})
-STRIP = Scene("strip", OBLONG, SILICONE.replace(damping_rate=5.0), GRAVITY, (CLAMP,))
+STRIP = Scene("strip /* 1", OBLONG, SILICONE.replace(damping_rate=5.0), GRAVITY, (CLAMP,))
 RISE = {"time": (0.0, 0.004, 0.02), "displacement": ((0, 0, 0), (0, 0, 0.001), (0.001, 0, 0.003))}
 RAMP = {"time": (0.0, 0.01), "factor": (0.0, 1.0)}
 LEVEL = scenes.Plane(position=(0.0, 0.0, -0.0026), friction=0.3, contact_damping=0.1)
@@ -136,7 +137,7 @@ def test_the_program_takes_the_steps_that_lumped_takes(name, precision, near, re
 
 NIGHTLY = [
     pytest.param(name, marks=pytest.mark.nightly)
-    for name in ("lifted", "blown over time", "table of dampers")
+    for name in ("lifted", "blown over time", "table of dampers", "air")
 ]
 
 
@@ -236,9 +237,11 @@ def test_inputs_are_what_a_scene_would_say(what, tmp_path):
     assert np.abs(left[:3]).max() > 0.0 and not sheet.row()[:3].any()  # the other has not moved
 
 
+CRUSHED = PointLoad(at=(0.2, 0.05), force=(-100.0, 0.0, 20.0))
 SLOW = [{"time": 0.1, "share": 0.2}]
 REFUSED = {
     "actuators: x1": (scenes.load("actuated-edge"), {"grid": 3}),
+    "turned inside out": (STRIP.replace(loads=(CRUSHED,)), {"grid": (5, 3)}),
     "branches": (STRIP.replace(material=SILICONE.replace(relaxation=SLOW)), {"grid": (5, 3)}),
 }
 
@@ -251,9 +254,9 @@ def test_what_the_program_has_not_is_refused_by_name(words):
 
 
 def test_names_that_are_alike_in_c_are_numbered():
-    names = ["a b", "tip", "a_b"]
+    names = ["a b", "tip", "a_b", "a_b_2"]
     probes = {name: (0.1, 0.02 * k) for k, name in enumerate(names)}
-    assert identifiers(names) == ["a_b", "tip", "a_b_2"]
+    assert identifiers(names) == ["a_b", "tip", "a_b_2", "a_b_2_3"]
     found = program(STRIP.replace(probes=probes), calibrated(STRIP, (5, 3)), "double", 20)
     assert list(found.outputs)[6] == "a_b_2.ux" and "SHEET_POINT_a_b_2 = 2" in found.texts["sheet.h"]
 
@@ -261,7 +264,7 @@ def test_names_that_are_alike_in_c_are_numbered():
 def test_the_verb_writes_it(tmp_path, capsys):
     wanted = ["calibrate", "two-edges-settling", "--grid", "3", "--for", "c", "--precision", "single"]
     assert run(*wanted, "--out", str(tmp_path)) == 0
-    files = {"sheet.h", "sheet.c", "main.c", "check.csv", "README.md"}
+    files = {"sheet.h", "sheet.c", "main.c", "check.csv"}
     assert files <= {path.name for path in tmp_path.iterdir()}
     assert "typedef float sheet_real" in (tmp_path / "sheet.h").read_text()
     assert run("calibrate", "two-edges-settling", "--precision", "single") == 2
@@ -289,6 +292,15 @@ def test_an_fmi_unit_is_without_fault_and_held_by_a_controller(tmp_path):
     held = python("docs/hold_tip.py", path)
     tip = float(re.search(r"tip at (\S+) mm", held.stdout)[1])
     assert abs(tip + 10.0) < 0.1, held.stdout + held.stderr
+
+
+def test_a_unit_has_no_input_that_a_history_sets():
+    """A tool that writes all inputs at every step would stop the history."""
+    natural = {"curvature": (2.0, 0.0, 0.0), "history": RAMP}
+    found = program(STRIP.replace(natural=natural), calibrated(STRIP, (5, 3)))
+    text, first = description("strip", found), next(iter(found.outputs))
+    assert "natural.factor" in found.inputs and "natural.factor" not in text
+    assert f'"{1 + len(found.inputs)}" name="{first}"' in text
 
 
 def test_without_a_compiler_a_unit_has_its_sources_alone(tmp_path, monkeypatch, capsys):

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from cases import sheet
+from cases import calibrated, sheet
 from contact_cases import DROP, FALLEN, GRAVITY, pressed_ball
 from contact_cases import FALLING as STRIP
 from scipy.optimize import brentq
@@ -49,8 +49,25 @@ def test_energy_of_a_strip_that_bounces(integrator, duration, options, within):
     assert history.reactions["obstacle 1"][:, 2].max() > 0.0
 
 
-def test_explicit_steps_are_hardly_shorter():
-    free, touching = (run(one, 0.01, "verlet") for one in (STRIP.replace(obstacles=()), STRIP))
+NOTCH = {"shape": {"rectangle": {"x": (0.12, 0.2), "y": (0.02, 0.05)}}}  # with masses in it, of none
+
+
+def test_a_dashpot_that_touches_a_held_edge_alone_does_not_shorten_steps():
+    limits = []
+    for tau in (0.0, 0.3):
+        place = (0.0, 0.0, -0.001 * np.hypot(1.0, 0.05))
+        plane = Plane(position=place, normal=(0.05, 0.0, 1.0), contact_damping=tau)
+        history = run(STRIP.replace(obstacles=(plane,)), 1e-3, "verlet")
+        limits.append(history.settings["largest_step"])
+    assert limits[0] == limits[1]
+
+
+@pytest.mark.parametrize("cutouts", [(), (NOTCH,)])
+def test_explicit_steps_are_hardly_shorter(cutouts):
+    scene = STRIP.replace(cutouts=cutouts)
+    springs = calibrated(scene, (7, 3))
+    both = scene.replace(obstacles=()), scene
+    free, touching = (lumped.simulate(one, springs, 0.01, integrator="verlet") for one in both)
     ratio = free.settings["largest_step"] / touching.settings["largest_step"]
     assert 1.0 <= ratio < np.sqrt(1.0 + MOVING) + 1e-6
     assert ratio * SAFETY / TOUCHING <= 1.2

@@ -42,6 +42,9 @@ CASES = {
     ),
     "loads": make_scene(loads=LOADS, damping_time=1e-5),
     "moved clamp": make_scene(supports=[{**CLAMP, "motion": COURSE}], damping_time=1e-5, damping_rate=30.0),
+    "moved corner": make_scene(
+        supports=[{"edge": edge, "kind": "hinged", "motion": COURSE} for edge in ("x0", "y0")]
+    ),
     "moved hinge": make_scene(supports=[CLAMP, {"edge": "x1", "kind": "hinged", "motion": COURSE}]),
     "turned edge": make_scene(supports=[CLAMP], actuators=[TURNED], damping_time=1e-5),
 }

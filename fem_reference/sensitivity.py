@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference.discrete import tangent_planes
-from fem_reference.discrete.contact import Touching
+from fem_reference.discrete.contact import ObstacleContact
 from fem_reference.shell.discrete import DiscreteShell
 from fem_reference.shell.element import weighed
 from fem_reference.shell.hyperelastic import HyperelasticElement
@@ -129,9 +129,9 @@ class SheetSensitivity:
             step = sheet.expand(shape, self.factor.solve(-sheet.reduce(shape, rate)))
         return np.asarray(step + placed)
 
-    def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
+    def displacement_rate(self, points: np.ndarray, name: str) -> np.ndarray:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
-        return self.shape.moved_at(np.asarray(points, dtype=float), self._moved({name: 1.0}))
+        return self.shape.displacement_rate(np.asarray(points, dtype=float), self._moved({name: 1.0}))
 
     def by_natural(self, moved: np.ndarray, name: str) -> np.ndarray:
         """Return λ·∂R/∂e0 or λ·∂R/∂k0 (m, 3) of λ (N,), xx, yy and xy, of one value an element."""
@@ -168,7 +168,8 @@ class SheetSensitivity:
         return by_values(of, values, names)
 
     def ends(self, name: str) -> tuple[tuple[Scene, Scene], float]:
-        """Return the scene on both sides of a parameter, and their distance in it. Raises BadInput."""
+        """Return the scene at both sides of a parameter's step, and the length of the step. Raises
+        BadInput."""
         name = short_name(name)
         found = parameter(self.scene, name)
         step = STEP * (abs(found.value) or 1.0)
@@ -192,7 +193,7 @@ class SheetSensitivity:
             for body in side.bodies:
                 force += body.scatter(body.pull(shape.q, body.stress(shape)))
                 force -= sum(body.scatter(dead) for dead, _ in side.weights) * (not weight)
-            items = (one for one in side.items if weight and not isinstance(one, Touching))
+            items = (one for one in side.items if weight and not isinstance(one, ObstacleContact))
             forces.append(force - sum(one.force(shape) for one in items))
         rate = (forces[1] - forces[0]) / over
         for one, before, after in zip(sheet.contacts, low.contacts, high.contacts, strict=True):

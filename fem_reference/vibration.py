@@ -156,6 +156,6 @@ def modes(
         rigid=rigid,
         unknowns=sheet.unknowns,
         solve_seconds=now() - ready,
-        sample=lambda points: np.stack([shape.moved_at(points, change) for change in changes]),
+        sample=lambda points: np.stack([shape.displacement_rate(points, change) for change in changes]),
         gradient_of=sheet.rebuild() and gradient_of,
     )

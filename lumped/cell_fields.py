@@ -29,7 +29,7 @@ from lumped.assembly import Assembly
 from lumped.calibration import Calibration
 from lumped.calibration.cell_by_cell import GridCells, each_cell
 from lumped.calibration.closed_form import springs_of_cells
-from lumped.calibration.consistent import special
+from lumped.calibration.consistent import closed_form_options
 from lumped.masses import shares_of_layers
 from lumped.natural import grown
 from lumped.natural import powers as natural_powers
@@ -78,7 +78,7 @@ class CellFields:
 
     @cached_property
     def base(self) -> dict[str, np.ndarray]:
-        """The fields as they are."""
+        """Fields of the unchanged scene by name."""
         section, share = self.section, 1.0 if self.section.share is None else self.section.share
         form, bent = section.membrane, section.bending[..., 0, 0]
         thickness = np.sqrt(ratio(12.0 * bent, form[..., 0, 0]))
@@ -92,7 +92,7 @@ class CellFields:
         return dict(zip((*NUMBERS, *STATE), (*numbers, *components), strict=True))
 
     def value(self, name: str, values: Values) -> np.ndarray:
-        """Return a field, of the given values or as it is. Raises BadInput for another name."""
+        """Return a field from the given values, by default the scene's. Raises BadInput for another name."""
         if name not in self.base:
             raise BadInput(f"{name}: choose from {', '.join(self.base)}")
         return np.asarray(values.get(name, self.base[name]))
@@ -126,7 +126,7 @@ class CellFields:
         constants, young = self.calibration.constants, self.base[YOUNG]
         if each[0].keys() & {POISSON, THICKNESS}:
             each_grid = [replace(self._at_rest, section=cells) for cells in (self.section, *sections)]
-            distance, options = constants.layer_distance, special(self.calibration.method)
+            distance, options = constants.layer_distance, closed_form_options(self.calibration.method)
             found = springs_of_cells(GridCells.stacked(each_grid), distance, True, **options)
             own, *inside = found.split(len(each_grid))
             largest = max(np.abs(np.asarray(part)).max() for part in own.of.values())
@@ -139,7 +139,7 @@ class CellFields:
         return [self._with_edges(cells, springs) for cells, springs in zip(sections, inside, strict=True)]
 
     def _with_edges(self, cells: CellSection, springs: Springs) -> Springs:
-        """Return springs of cells with the springs of edges and rims, whose factors are kept."""
+        """Return the cells' springs and those of edges and rims, whose twist factors stay."""
         constants, of = self.calibration.constants, dict(springs.of)
         now, was = (twisting(section.bending) for section in (cells, self.section))
         factor = np.divide(now, was, out=np.ones_like(now), where=was > 0.0)
@@ -159,8 +159,8 @@ class CellFields:
         return each_cell(sheet, scene.material, of.grid, of.grading, self.section)
 
     def assembly_of(self, values: Values, complete: bool = False) -> Assembly:
-        """Return the lattice of cells with other fields; complete: with springs of the mid-surface, as still
-        other values can need them, even where they have no stiffness."""
+        """Return the lattice of cells with other fields; complete: with springs of the mid-surface even where
+        they have no stiffness, which other values may need."""
         assembly, springs = copy(self.assembly), self.calibration.constants
         if values.keys() & OF_SECTION:
             springs = self.springs(values)[0]
@@ -207,7 +207,8 @@ class CellFields:
         return self._kept if values.keys().isdisjoint(SECTION_AND_STRAIN) else {}
 
     def _rates(self, name: str, values: Values, assembly: Assembly, kept: Rates) -> tuple[Shares, np.ndarray]:
-        """Return the changes of springs `by_cells` with a field, and of the field; of ν and h together."""
+        """Return the changes of the springs (`by_cells`) by a change of a field, and that change; for ν and h
+        in one pass."""
         values = {one: values[one] for one in values.keys() & SECTION_AND_STRAIN}
         if name == YOUNG and name not in kept:  # which all constants are in proportion to, but for a limit
             of = {one: parts for one, parts in self.springs(values)[0].of.items() if one != "gent_limit"}
@@ -225,8 +226,8 @@ class CellFields:
         return changes, np.where(over > 0.0, over, 1.0)
 
     def by_cells(self, springs: Springs, assembly: Assembly, values: Values) -> Shares:
-        """Return, for each kind of springs, the cells beside each, (q, m), and their shares (q, m, n) of its
-        constants."""
+        """Return, for each kind of springs, the cells adjacent to each spring, (q, m), and their
+        contributions (q, m, n) to its constants."""
         lattice, none = assembly.lattice, (np.empty((1, 0), int), np.empty((1, 0, 1)))
         these = lattice.links_of(assembly.links.nodes)
         found = [(lattice.links.cells[:, these], stiffness_by_cells(lattice, springs)[:, these])]

@@ -51,7 +51,7 @@ Sides = tuple["list[Base]", float]
 
 
 class Base:
-    """A scene's lattice with the springs of a calibration, which equilibria with any values share. calibrate:
+    """A scene's lattice and its calibrated springs, shared by equilibria at any parameter values. calibrate:
     finds the springs of a changed scene; by default the calibration's method without options; previous: the
     lattice of a scene with an equal plan and grid."""
 
@@ -71,8 +71,8 @@ class Base:
 
     @classmethod
     def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Base:
-        """Return the lattice with the springs of a calibration; a small one that is equal to the last is not
-        made again."""
+        """Return the lattice with the springs of a calibration; a small lattice is reused from the last
+        call."""
         key = scene, calibration, calibrate
         if cls._last is not None and cls._last[0] == key:
             return cls._last[1]
@@ -82,8 +82,8 @@ class Base:
         return found
 
     def sides(self, name: str) -> Sides:
-        """Return the lattices below and above a parameter, and the distance between both, made once; of ν and
-        h together, as one pass finds all four."""
+        """Return the lattices a little below and above a parameter's value, and the distance between both
+        values; each is built once, those of ν and h in one pass."""
         if name not in self._sides:
             even = self.calibration.cells is None and self.scene.material.poisson is not None
             names = TOGETHER if even and name in TOGETHER else (name,)
@@ -93,7 +93,7 @@ class Base:
         return self._sides[name]
 
     def scaled_by(self, name: str) -> bool:
-        """Return whether a parameter is E or ρ of all cells in proportion, and of nothing else."""
+        """Return whether a parameter scales E or ρ of all cells and nothing else."""
         scene = self.scene
         if name not in ("young", "density") or scene.layers or scene.obstacles:
             return False
@@ -182,7 +182,7 @@ class Equilibrium:
         with one_blas_thread():
             return self.problem.expand(self._factor.solve(rows)) + moved
 
-    def moved_at(self, points: np.ndarray, name: str) -> np.ndarray:
+    def displacement_rate(self, points: np.ndarray, name: str) -> np.ndarray:
         """Return the displacement's derivative (p, 3) at plan points (p, 2) by a parameter."""
         return self.surface(points)[1].of(self.pushforward({name: 1.0}))
 
@@ -191,8 +191,8 @@ class Equilibrium:
         return self.problem.middle(self.u, points)
 
     def rates(self, name: str, change: Any = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return ∂R/∂θ (m,) [N], and the rates of the displacement (n, 3) [m] and of the unbalanced force
-        (n, 3) [N] at unknowns that stay as at u, times a change of a parameter."""
+        """Return ∂R/∂θ (m,) [N], and the rates of the displacement (n, 3) [m] and of the unbalanced force (n,
+        3) [N] at fixed unknowns, times a change of a parameter."""
         if name == FORCES:
             return self.problem.reduce(force := np.asarray(change)), np.zeros_like(self.u), force
         if name.startswith(FIELD):

@@ -1,4 +1,4 @@
-"""Equilibria of many designs of one lattice, side by side on all cores.
+"""Equilibria of many designs of one lattice, in parallel on all cores.
 
 Designs of moduli and forces on springs of the linear laws start at the scene's own equilibrium, and go on in
 one compiled loop that holds no lock: steps with its factors, near the end with the factors of their own
@@ -104,16 +104,17 @@ def solve_many(
         return path.status
 
     with one_blas_thread(), ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        if designs.keys() <= {YOUNG, FORCES} and _plain(sheet):
-            solve = _together(sheet, start, designs, out, done)
+        if designs.keys() <= {YOUNG, FORCES} and _qualifies(sheet):
+            solve = _compiled_solver(sheet, start, designs, out, done)
             list(pool.map(solve, [slice(at, at + PART) for at in range(0, count, PART)]))
         others = np.flatnonzero(~done).tolist()
         status = dict(zip(others, pool.map(solved, others), strict=True))
     return Designs(out, [status.get(number, Status.CONVERGED) for number in range(count)])
 
 
-def _plain(sheet: Differentiable) -> bool:
-    """Return whether a lattice has only springs of linear laws, only dead loads and a small matrix."""
+def _qualifies(sheet: Differentiable) -> bool:
+    """Return whether a lattice qualifies for the compiled loop: springs of linear laws, dead loads, a small
+    matrix."""
     problem = sheet.problem
     others = problem.contacts or problem.assembly.coupling is not None or problem.loads.follow
     linear = problem.assembly.conservative and not problem.assembly.any_strain
@@ -121,23 +122,23 @@ def _plain(sheet: Differentiable) -> bool:
     return bool(not others and linear and flat and problem.system.band is not None)
 
 
-def _together(
+def _compiled_solver(
     sheet: Differentiable,
     start: np.ndarray,
     designs: Mapping[str, np.ndarray],
     out: np.ndarray,
     done: np.ndarray,
 ) -> Callable[[slice], None]:
-    """Return the function that sets the displacements of a part of the designs, and whether each has
-    converged."""
+    """Return the function that solves a part of the designs in compiled code and marks those that
+    converge."""
     problem, assembly, band = sheet.problem, sheet.problem.assembly, sheet.problem.system.band
     base, forces = sheet.base[YOUNG].ravel(), np.broadcast_to(designs.get(FORCES, 0.0), out.shape)
     young = np.broadcast_to(np.reshape(designs.get(YOUNG, base), (-1, base.size)), (len(out), base.size))
     of_cells = sheet.cells.by_cells(sheet.calibration.constants, assembly, {})
     assert band is not None
-    of_start, _ = banded.factored(problem.tangent(start, 1.0), band)
+    start_factors, _ = banded.factored(problem.tangent(start, 1.0), band)
     free, none = problem.constraints.transform_arrays, all_families.NO_STRESSES
-    given = start, of_start, assembly.all_families.springs
+    given = start, start_factors, assembly.all_families.springs
 
     def solve(part: slice) -> None:
         factor = young[part] / np.where(base > 0.0, base, 1.0)
@@ -153,7 +154,7 @@ def _together(
 @njit
 def correct(
     start: np.ndarray,
-    of_start: np.ndarray,
+    start_factors: np.ndarray,
     springs: Pointer[SpringArrays],
     k: np.ndarray,
     layers: np.ndarray,
@@ -167,9 +168,9 @@ def correct(
     done: np.ndarray,
 ) -> None:
     """Set displacements (designs, n, 3) [m] in equilibrium under loads (designs, n, 3) [N] with links of
-    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), by
-    the factors of `start`, then by their own, and `done` where converged; rounding [N/m]: of forces, over
-    the displacement."""
+    stiffness k (designs, m) and cells of the constants `layers` and `middle` (designs, c, 7), corrected with
+    the factors of `start`, then with factors of each design; `done` marks convergence; rounding [N/m]:
+    rounding error of the forces over the displacement."""
     n = len(band.order)
     of = springs.value
     a, b, c = of.links, of.layers, of.middle
@@ -185,7 +186,7 @@ def correct(
         )
         own = pointer(arrays)
         u, last, size = start.copy(), np.inf, np.sqrt(np.sum(loads[d] ** 2))
-        factors, own_factors, fresh = of_start, False, False
+        factors, own_factors, fresh = start_factors, False, False
         for _ in range(STEPS):
             rows = transposed_product(free, (loads[d] - all_families.force(u, own)[1]).ravel(), n)
             imbalance = np.sqrt(np.sum(rows * rows))

@@ -26,8 +26,8 @@ INERT = (DENSITY, THICKNESS, FORCES)
 
 
 class ModeGradient(Mapping[str, Any]):
-    """df/dθ [Hz per unit] by name, of the mode (m,) of an equilibrium; squared: ω² [1/s²]; inertia: makes
-    Tᵀ M T (m, m) of a problem with springs. A shape under load changes too."""
+    """df/dθ [Hz per unit] by name, of the mode (m,) of an equilibrium; squared: ω² [1/s²]; inertia: function
+    from a problem and its springs to Tᵀ M T (m, m). A shape under load changes too."""
 
     def __init__(self, of: Equilibrium, mode: np.ndarray, squared: float, inertia: Callable[..., Any]):
         problem, u, shape, none = of.problem, of.u, of.problem.expand(mode), np.zeros_like(of.u)

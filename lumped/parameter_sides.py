@@ -49,8 +49,8 @@ def both_sides(
     calibrate: Calibrate | None = None,
     share: float = 0.0,
 ) -> list[Sides]:
-    """Return scene and springs a little below and above each of some parameters of one kind, and the distance
-    between both; share: of its value, for steps by that share."""
+    """Return scene and springs at values a little below and above each parameter, all of one kind, and the
+    distance between both values; share: of its value, for steps by that share."""
     known, changes = calibration.constants, list[tuple[str, float]]()
     of_springs = names[0] in (*known.names(), "layer_distance")
     for name in map(short_name, names):
@@ -76,8 +76,8 @@ def of_changed(
     calibrate: Calibrate | None,
     checked: bool = True,
 ) -> list[Changed]:
-    """Return the scene and springs with one other value each, the springs calibrated again if they depend on
-    it; checked: whether the first scene is, as `put` does."""
+    """Return scene and springs for each changed value, recalibrated if they depend on it; checked: whether
+    the first changed scene is validated, as by `put`."""
     name, _ = changes[0]
     checked &= not name.startswith(OBSTACLE)  # of a sheet that begins on one, within it by so little
     scenes = [put(scene, *change, checked and change is changes[0]) for change in changes]

@@ -60,7 +60,7 @@ class Differentiable:
 
     @property
     def base(self) -> dict[str, np.ndarray]:
-        """The scene's own fields over the cells, and zero forces."""
+        """Fields of the unchanged scene over the cells, and zero forces."""
         return {**self.cells.base, FORCES: np.zeros_like(self.problem.loads.dead)}
 
     def at(self, points: np.ndarray) -> Any:
@@ -77,8 +77,8 @@ class Differentiable:
         return self._solved.surface(points)
 
     def solve(self, values: Mapping[str, Any]) -> np.ndarray:
-        """Return the displacement (n, 3) [m] of the stable equilibrium with the given values, sought from the
-        last solution first. Raises NoEquilibrium where there is none, BadInput for other names."""
+        """Return the displacement (n, 3) [m] of the stable equilibrium with the given values; the search
+        starts from the last solution. Raises NoEquilibrium where there is none, BadInput for other names."""
         return self._reached(values).u
 
     def _reached(self, values: Mapping[str, Any]) -> Equilibrium:
@@ -92,8 +92,8 @@ class Differentiable:
         return self._last or self._reached({})
 
     def path(self, values: Mapping[str, Any], near: np.ndarray | None) -> tuple[Equilibrium, LatticePath]:
-        """Return the end of the path to the equilibrium with the given values, sought first from `near` (n,
-        3), and the path."""
+        """Return the equilibrium with the given values and the path to it, started from `near` (n, 3) if
+        possible."""
         base, scene, springs, numbers = self._base, self.scene, self.calibration, self.checked(values)
         fields = {name: numbers.pop(name) for name in values if name.startswith(FIELD) or name == FORCES}
         for name, value in numbers.items():
@@ -122,7 +122,7 @@ class Differentiable:
     def at_points(self, points: np.ndarray, names: Iterable[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Return the scene's own displacement (p, 3) at plan points (p, 2), and its derivatives by name."""
         at = self._reached({})
-        return at.surface(points)[0], {name: at.moved_at(points, name) for name in names}
+        return at.surface(points)[0], {name: at.displacement_rate(points, name) for name in names}
 
     def pullback(self, by_displacement: np.ndarray) -> Gradient:
         """Return the derivatives of J by name at the last solve's values; by_displacement: ∂J/∂u (n, 3)."""

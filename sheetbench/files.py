@@ -19,7 +19,7 @@ from sheetbench.errors import BadInput
 LOCK = ".lock"
 PARTIAL = re.compile(r"\.(?P<stem>.+)\.(?P<process>\d+)\.partial(?P<suffix>\..*)?")
 KINDS = ((stat.S_ISLNK, "link"), (stat.S_ISDIR, "folder"))
-NOT_FOLLOWED = os.O_CLOEXEC | os.O_NOFOLLOW
+UNSUPPORTED = os.O_CLOEXEC | os.O_NOFOLLOW
 AGAIN, ELSEWHERE = "run the same command again", "choose another folder"
 REMEDIES = {
     **dict.fromkeys((errno.ENOSPC, errno.EDQUOT), f"free some and {AGAIN}"),
@@ -57,7 +57,7 @@ def replacing(path: Path) -> Iterator[Path]:
         require_file(path)
         _remove_partial_files(path)
         partial.unlink(missing_ok=True)  # of a killed writer that had this process's number
-        os.close(os.open(partial, os.O_CREAT | os.O_EXCL | NOT_FOLLOWED, 0o666))
+        os.close(os.open(partial, os.O_CREAT | os.O_EXCL | UNSUPPORTED, 0o666))
         try:
             yield partial
             os.replace(partial, path)
@@ -86,7 +86,7 @@ def only_writer(folder: Path) -> Iterator[None]:
     """
     path = folder / LOCK
     with writing(path):
-        file = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT | NOT_FOLLOWED, 0o666), "r+")
+        file = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT | UNSUPPORTED, 0o666), "r+")
     with file:
         try:
             with writing(path):

@@ -62,7 +62,8 @@ def description(name: str, of: Program) -> str:
 
 
 def library(texts: dict[str, str]) -> dict[str, bytes]:
-    """Return a library for this machine by its place in a unit, nothing without a working compiler."""
+    """Return the compiled library for this machine by its path in the unit; empty without a working
+    compiler."""
     compiler = next(filter(None, map(shutil.which, ("cc", "gcc", "clang"))), None)
     system, ending = {"linux": ("linux", "so"), "darwin": ("darwin", "dylib")}.get(sys.platform, ("", ""))
     if not (compiler and system):
@@ -79,7 +80,7 @@ def library(texts: dict[str, str]) -> dict[str, bytes]:
 
 
 def fmu_files(name: str, of: Program) -> tuple[dict[str, Write], list[str]]:
-    """Return the file of `--for fmu` of a scene, and its missing parts."""
+    """Return the FMU of a scene by its file's name, and the features that it omits."""
     sources = {name: of.texts[name] for name in ("sheet.h", "sheet.c")} | {"fmi3.c": script("fmi3.c")}
     built = library(sources)
     content: dict[str, str | bytes] = {"modelDescription.xml": description(name, of), **built}

@@ -122,8 +122,8 @@ def program(
 
 
 def samples(system: System, start: State, step: float, steps: int) -> tuple[np.ndarray, str]:
-    """Return time [s], probes [m], forces of supports and obstacles [N] and energies [J] of some of so many
-    of `lumped`'s own steps [s], and why `lumped.simulate` would end before, "" where it would not."""
+    """Return time [s], probes [m], forces of supports and obstacles [N] and energies [J] at samples of so
+    many of `lumped`'s own steps [s], and why `lumped.simulate` would end before, "" where it would not."""
     observer, method = lumped.LatticeObserver(system), lumped.INTEGRATORS["verlet"](system, step)
     method.kinks = np.empty(0)  # the program's steps pass over them
     store = MemoryStore({"samples": (width(observer.columns),)})
@@ -159,7 +159,7 @@ def add_springs(tables: Tables, system: System) -> None:
 
 
 def middle_of(system: System, masses: np.ndarray) -> np.ndarray:
-    """Return the rows of the middles of masses' columns."""
+    """Return the averaging matrix from the masses to the mid-surface points of their columns."""
     lattice = system.assembly.lattice
     return np.asarray(lattice.mass_count + masses // lattice.grid[2])
 
@@ -242,8 +242,8 @@ def add_contact(tables: Tables, system: System) -> None:
 
 
 def add_growth(tables: Tables, system: System) -> None:
-    """Add the springs' measures without stress, a quadratic form of the factors of natural states: of each
-    alone, and of the products with itself and those before; none of a sheet that is flat at rest."""
+    """Add the springs' stress-free measures as a quadratic form in the factors of natural states; nothing for
+    a sheet flat at rest."""
     state: Any = system.assembly.natural
     dampers = 0 if system.scene.dampers is None else len(system.damping.dampers[0])
 

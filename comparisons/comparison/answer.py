@@ -194,7 +194,7 @@ class Comparison(SceneSolutions, Answer):
             at_rest = square <= (ROUND_OFF * np.abs(u).max()) ** 2
             result[solution.model] = {}
             for name, value in values.items():
-                change = 0.01 * value * np.sum(u * sensitivity.moved_at(points, name), axis=1)
+                change = 0.01 * value * np.sum(u * sensitivity.displacement_rate(points, name), axis=1)
                 shares = zip(self.scene.probes, change / np.where(at_rest, 1.0, square), at_rest, strict=True)
                 result[solution.model][name] = {n: None if rest else float(s) for n, s, rest in shares}
         return result

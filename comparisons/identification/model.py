@@ -122,7 +122,10 @@ def _predict(
         return _predict_by_differences(model.scene, at_rest, STATIC_STEP, unknowns, x, points)
     try:
         sensitivity = solution.sensitivity()
-        slopes = [sensitivity.moved_at(points, u.name) * u.slope(z) for u, z in zip(unknowns, x, strict=True)]
+        slopes = [
+            sensitivity.displacement_rate(points, u.name) * u.slope(z)
+            for u, z in zip(unknowns, x, strict=True)
+        ]
     except (BadInput, NoEquilibrium) as error:
         raise NoAnswer(str(error)) from None
     return Prediction(solution.displacement(points), slopes)

@@ -38,7 +38,7 @@ SIMPSON = np.outer([1.0, 4.0, 1.0], [1.0, 4.0, 1.0]).ravel() / 9.0  # ∫ N dr d
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # energy, loads and slopes of groups (faces, m, t, …)
 
 
-class Touching(SheetItem):
+class ObstacleContact(SheetItem):
     """Contact of a sheet with one obstacle. share: of the penalty's stiffness in use; basis: (p, 9) shape
     functions at an element's points; shares: (p, n) weights of its nodes and of a (`tangent_planes`) in the
     surface there; hats: (p, 9) nonnegative weights of nodes; groups: (t, 9) points of each part, or one node
@@ -157,7 +157,7 @@ class Touching(SheetItem):
         out += (both[:, :, :, None] * projector(self.obstacle)[:, None]).reshape(out.shape)
         return self._between(shape, on, out, (loads[..., None] * found.slope[:, on]).sum(axis=0))
 
-    def rate(self, shape: SheetShape, low: Touching, high: Touching, over: float) -> np.ndarray:
+    def rate(self, shape: SheetShape, low: ObstacleContact, high: ObstacleContact, over: float) -> np.ndarray:
         """Return the derivative (N,) of the contact force by a parameter that changes by `over` from contact
         `low` to contact `high`, through the obstacle's position and size, offset and stiffness. The patch
         stays."""

@@ -35,7 +35,7 @@ class SheetShape:
         """Rates (m, 18, 3) of `vectors`."""
         return self.sheet.surface_change(np.zeros_like(self.q) if self.v is None else self.v)
 
-    def moved_at(self, points: np.ndarray, change: np.ndarray) -> np.ndarray:
+    def displacement_rate(self, points: np.ndarray, change: np.ndarray) -> np.ndarray:
         """Return the change (p, 3) [m] of the mid-surface, as obstacles touch it, at plan points (p, 2), by a
         change (N,) of coordinates."""
         sheet = self.sheet

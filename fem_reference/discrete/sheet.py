@@ -21,7 +21,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
-from fem_reference.discrete.contact import Touching
+from fem_reference.discrete.contact import ObstacleContact
 from fem_reference.discrete.course import Factor, commands_of, factor_at, loads_of
 from fem_reference.discrete.items import DeadLoad, Drag, FollowerLoad, SheetItem
 from fem_reference.discrete.rods import Rods
@@ -112,7 +112,7 @@ class Discrete(ABC):
         if moving and scene.air:
             self.items.append(Drag(scene.air.coefficient))
         common, bodies = (scene, self.plan, moving, self.model == "solid"), scene.named_obstacles().items()
-        self.contacts = [Touching(*common, *obstacle) for obstacle in bodies if not self.linear]
+        self.contacts = [ObstacleContact(*common, *obstacle) for obstacle in bodies if not self.linear]
         self.items += self.contacts
 
     @property

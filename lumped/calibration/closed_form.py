@@ -71,25 +71,25 @@ PAIRS = ("axial", "cross", "stretch", "mid_stretch", "face_shear")  # constants 
 
 
 class NoClosedForm(Exception):
-    """A cell, of the sides [m] in `args`, has no nonnegative springs in closed form."""
+    """Report a cell, of the sides [m] in `args`, without nonnegative springs in closed form."""
 
 
 def springs_of_cells(
-    grid_cells: GridCells, layer_distance: float | None = None, anyhow: bool = False, **special: bool
+    grid_cells: GridCells, layer_distance: float | None = None, allow_negative: bool = False, **special: bool
 ) -> Springs:
     """Return the springs of all cells, at the largest layer distance that a cell of the sheet needs. Raises
-    NoClosedForm for a cell without a closed form, unless `anyhow`: some springs are then negative."""
+    NoClosedForm for a cell without a closed form, unless `allow_negative`: some springs are then negative."""
     (sides, _), target, layers = grid_cells.present, grid_cells.target, grid_cells.grid[2]
     constants, distance, exists = closed_form(target, sides, layers, layer_distance, **special)
     one_sheet = not grid_cells.several
     if layer_distance is None and one_sheet and len(sides) > 1 and exists.all():
         constants, distance, exists = closed_form(target, sides, layers, float(distance.max()), **special)
-    if not (anyhow or exists.all()):
+    if not (allow_negative or exists.all()):
         raise NoClosedForm(*sides[np.argmin(exists)])
     of = {name: grid_cells.on_grid(values) for name, values in constants.items()}
     return Springs.made(
         float(distance.max()) if one_sheet else grid_cells.on_grid(distance),
-        **{name: by_direction(*v) if name in PAIRS and not anyhow else v for name, v in of.items()},
+        **{name: by_direction(*v) if name in PAIRS and not allow_negative else v for name, v in of.items()},
     )
 
 

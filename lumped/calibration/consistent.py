@@ -26,17 +26,17 @@ from sheetbench.scenes.objects.grading import Graded
 def springs_of_sheets(
     sheets: Sequence[tuple[Sheet, Material]], grid: Grid, method: str = "consistent"
 ) -> list[Springs]:
-    """Return the springs of isotropic sheets of equal cells, each as by `consistent`, all at once. Raises
+    """Return the `consistent` springs of several isotropic sheets of equal cells in one pass. Raises
     NoClosedForm for a sheet without a closed form."""
     each = [each_cell(sheet, material, grid) for sheet, material in sheets]
     together = GridCells.stacked(each, several=True)
-    springs = springs_of_cells(together, **special(method))
+    springs = springs_of_cells(together, **closed_form_options(method))
     if method != "consistent-interior":
         springs, _ = with_twist(together, springs, moduli.of_cells(springs, together.sides, grid[2]))
     return springs.split(len(each))
 
 
-def special(method: str) -> dict[str, bool]:
+def closed_form_options(method: str) -> dict[str, bool]:
     """Return the options of the closed form of a method."""
     return {"gradients": method == "consistent-membrane", "waves": method == "consistent-oblique"}
 
@@ -79,7 +79,7 @@ def consistent(
     try:
         if even and layer_distance is not None:
             raise NoClosedForm
-        springs = springs_of_cells(grid_cells, layer_distance, **special(method))
+        springs = springs_of_cells(grid_cells, layer_distance, **closed_form_options(method))
     except NoClosedForm as cell:
         if not even:
             given = f"{grid[2]} layers"

@@ -20,7 +20,7 @@ from typing import Any, BinaryIO, Self
 import numpy as np
 
 from sheetbench.errors import BadInput
-from sheetbench.files import NOT_FOLLOWED, only_writer, replacing, writing
+from sheetbench.files import UNSUPPORTED, only_writer, replacing, writing
 from sheetbench.sources import source, version
 
 APPENDED = ("samples", "frames")
@@ -166,7 +166,7 @@ class FolderStore:
     @contextmanager
     def _open(self, name: str, flags: int) -> Iterator[BinaryIO]:
         path = self._file(name)
-        with writing(path), os.fdopen(os.open(path, flags | NOT_FOLLOWED, 0o666), "wb") as file:
+        with writing(path), os.fdopen(os.open(path, flags | UNSUPPORTED, 0o666), "wb") as file:
             yield file
 
     def _sync(self, name: str) -> int:

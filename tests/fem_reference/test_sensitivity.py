@@ -162,7 +162,7 @@ def test_derivatives_are_those_of_equilibria_found_anew(name, model):
     moved = found.pushforward(dict(zip(names, shares * scales, strict=True)))
     if name != "ball":
         assert np.sum(weights * sheet.sample(moved, points)) == pytest.approx(shares @ by, rel=1e-6)
-    moved = [np.sum(weights * found.moved_at(points, one)) for one in names]
+    moved = [np.sum(weights * found.displacement_rate(points, one)) for one in names]
     assert_allclose(scales * np.array(moved), by, rtol=0.0, atol=1e-6 * np.abs(by).max())
 
 

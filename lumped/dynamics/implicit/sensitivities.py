@@ -40,7 +40,7 @@ SLOW = 0.3  # ratio of corrections from which on factors are made anew
 Change = np.ndarray  # δ s, δ s′ and δ s″, (3, n, 3)
 
 
-def require_followed(names: Sequence[str], integrator: str, keeping: Mapping[str, Any]) -> None:
+def require_differentiable(names: Sequence[str], integrator: str, keeping: Mapping[str, Any]) -> None:
     """Raise BadInput for derivatives that a run cannot have."""
     if names and integrator != Esdirk.name:
         raise BadInput(f"sensitivities: need integrator = 'esdirk', not '{integrator}'")
@@ -50,8 +50,9 @@ def require_followed(names: Sequence[str], integrator: str, keeping: Mapping[str
         raise BadInput("sensitivities: not for a stored run; leave the store out")
 
 
-class Sided:
-    """A parameter's two systems, half the difference of their states, and the memories of their branches."""
+class ParameterSystems:
+    """Systems at both sides of a parameter's step, half the difference of their states, and the memories of
+    their branches."""
 
     def __init__(self, scene: Scene, calibration: Calibration, weights: Weights, name: str):
         ((ends, over),) = both_sides(scene, calibration, [name], share=STEP)
@@ -69,7 +70,7 @@ class SensitiveEsdirk(Esdirk):
     """`esdirk` with the derivatives by up to MOST parameters; found: times (k,) and derivatives (parameters,
     k, n, 3) of the samples so far."""
 
-    def __init__(self, sides: Sequence[Sided], *given: Any, **options: Any):
+    def __init__(self, sides: Sequence[ParameterSystems], *given: Any, **options: Any):
         super().__init__(*given, **options)
         self._sides = sides
         self._acceleration: np.ndarray | None = None
@@ -79,7 +80,7 @@ class SensitiveEsdirk(Esdirk):
         """Return one step, as `Esdirk` does, of the derivatives too."""
         taken, step = super().advance(state, at_most), self._step
         bent = self._acceleration is None or not np.array_equal(step.stages.a[0], self._acceleration)
-        self._tables = [self._followed(one, step, bent) for one in self._sides]
+        self._tables = [self._advance_derivatives(one, step, bent) for one in self._sides]
         self._acceleration = step.stages.a[-1].copy()
         return taken
 
@@ -94,8 +95,8 @@ class SensitiveEsdirk(Esdirk):
         self.found.append((times, changes / half))
         return super().at(times, last)
 
-    def _followed(self, one: Sided, step: EsdirkStep, bent: bool) -> np.ndarray:
-        """Take a parameter's changes over a step; return their stages, (3, 7, n, 3)."""
+    def _advance_derivatives(self, one: ParameterSystems, step: EsdirkStep, bent: bool) -> np.ndarray:
+        """Advance the derivatives by one parameter over a step; return their stages, (3, 7, n, 3)."""
         own, h = np.array(step.stages[1:4]), step.h
         tables, c1, start = np.zeros_like(own), 1.0 / (GAMMA * h), float(step.stages.time[0])
         ends = zip(one.systems, (own[:, 0] + one.change, own[:, 0] - one.change), one.memories, strict=True)
@@ -110,18 +111,24 @@ class SensitiveEsdirk(Esdirk):
             u, v = (tables[k, 0] + h * np.tensordot(STAGES[i, :i], tables[k + 1, :i], 1) for k in (0, 1))
             inside, base = [side.in_stage(i) for side in sides], np.array([u + v / c1, v])
             tables[0, i] = base[0] + np.tensordot(GUESSES[i, :i], tables[2, :i], 1) / c1**2
-            tables[:, i] = self._corrected(one, step, i, inside, base, tables[0, i])
+            tables[:, i] = self._stage_derivatives(one, step, i, inside, base, tables[0, i])
             for side, system, sign in zip(sides, inside, SIGNS, strict=True):
                 if system.maxwell is not None:
                     side.memories[i] = system.maxwell.after(own[0, i] + sign * tables[0, i])
         one.change, one.memories = tables[:, -1].copy(), [side.memories[-1] for side in sides]
         return tables
 
-    def _corrected(
-        self, one: Sided, step: EsdirkStep, i: int, inside: Sequence[System], base: Change, change: Change
+    def _stage_derivatives(
+        self,
+        one: ParameterSystems,
+        step: EsdirkStep,
+        i: int,
+        inside: Sequence[System],
+        base: Change,
+        change: Change,
     ) -> Change:
-        """Return a stage's changes, from a guess of its first; base: û and v̂ of its equation. Raises
-        StepFailed."""
+        """Return a stage's derivatives of displacement, velocity and acceleration from a guess of the first;
+        base: û and v̂ of its equation. Raises StepFailed."""
         time, c1 = float(step.stages.time[i]), 1.0 / (GAMMA * step.h)
         at, last, fresh = np.array([part[i] for part in step.stages[1:4]]), np.inf, False
         for _ in range(CORRECTIONS):

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lumped.calibration import Calibration, default
-from lumped.dynamics.implicit.sensitivities import SensitiveEsdirk, Sided, require_followed
+from lumped.dynamics.implicit.sensitivities import ParameterSystems, SensitiveEsdirk, require_differentiable
 from lumped.dynamics.integrators import INTEGRATORS, require_integrator, resolve_integrator
 from lumped.dynamics.runs.initial import in_motion
 from lumped.dynamics.runs.observer import LatticeObserver
@@ -106,7 +106,7 @@ def simulate(
     calibration = calibration or default(scene)
     system, start = in_motion(scene, calibration, weights)
     integrator, reason = resolve_integrator(integrator, system, options)
-    require_followed(sensitivities, integrator, keeping)
+    require_differentiable(sensitivities, integrator, keeping)
     limit = INTEGRATORS[integrator].limit(system, start.u)
     schedule, length = plan_run(system, calibration, limit, duration, step, integrator, every)
     settings = calibration.settings | {"layer_distance": calibration.layer_distance} | options
@@ -121,7 +121,7 @@ def simulate(
         "axes": {edge: len(rows) for edge, (rows, _) in axes.items()},
     }
     kind: Any = INTEGRATORS[integrator]
-    sides = [Sided(scene, calibration, weights, name) for name in sensitivities]
+    sides = [ParameterSystems(scene, calibration, weights, name) for name in sensitivities]
     if sides:
         kind = partial(SensitiveEsdirk, sides)
     extra: dict[str, Any] = {"fixed": step is not None} if INTEGRATORS[integrator].adaptive else {}

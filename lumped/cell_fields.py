@@ -139,7 +139,7 @@ class CellFields:
         return [self._with_edges(cells, springs) for cells, springs in zip(sections, inside, strict=True)]
 
     def _with_edges(self, cells: CellSection, springs: Springs) -> Springs:
-        """Return the cells' springs and those of edges and rims, whose twist factors stay."""
+        """Return the cells' springs with the springs of edges and rims, whose twist factors stay."""
         constants, of = self.calibration.constants, dict(springs.of)
         now, was = (twisting(section.bending) for section in (cells, self.section))
         factor = np.divide(now, was, out=np.ones_like(now), where=was > 0.0)
@@ -180,8 +180,7 @@ class CellFields:
         self, name: str, values: Values, assembly: Assembly, by: list[np.ndarray], v: np.ndarray, kept: Rates
     ) -> np.ndarray:
         """Return the derivatives of v·(f − f_int) by a field of numbers, of the complete lattice `assembly`;
-        by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`); kept: known rates
-        of springs at these values, to which more are added."""
+        by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`); kept: known rates of springs at the values; new rates are added to it."""
         found = np.zeros_like(self.value(name, values))
         of_springs, over = self._rates(name, values, assembly, kept) if name in OF_SECTION else ([], found)
         for (cells, change), power in zip(of_springs, by, strict=False):

@@ -83,7 +83,7 @@ class Base:
 
     def sides(self, name: str) -> Sides:
         """Return the lattices a little below and above a parameter's value, and the distance between both
-        values; each is built once, those of ν and h in one pass."""
+        values; each is built once, for ν and h in one pass."""
         if name not in self._sides:
             even = self.calibration.cells is None and self.scene.material.poisson is not None
             names = TOGETHER if even and name in TOGETHER else (name,)

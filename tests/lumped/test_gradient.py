@@ -354,7 +354,7 @@ def test_derivatives_of_a_frequency_are_those_of_differences(about):
     loaded = ("gravity.z",) if about == "deformed" else ()
     for name in ("young", "poisson", "density", "thickness", "tilt_x0", *loaded):
         value = parameter(scene, name).value
-        h = 1e-4 * (abs(value) or 1.0)
+        h = 5e-4 * (abs(value) or 1.0)  # residuals of two solves are below 1e-5 of the difference
         up, down = (modes(put(scene, name, at)).frequencies[1] for at in (value + h, value - h))
         assert found[name] == pytest.approx((up - down) / (2.0 * h), rel=1e-5), name
     assert found["cells.young"].sum() == pytest.approx(found["young"], rel=1e-6)

@@ -2,10 +2,10 @@
 
 Springs of a cell follow from its own section by the closed form of `lumped.calibration.closed_form`, at the
 lattice's own layer distance, so that some springs may be slightly negative here. Along edges and rims a cell
-keeps the factor f of its twisting stiffness from the lattice's own calibration: f is of a strip of such cells
-(`lumped.calibration.edge_twist`), the same at any E. Each cell's constants depend on that cell alone, and are
-in proportion to its E: by ν and h one difference with all cells changed at once gives all rates, which are
-found once a lattice.
+keeps the factor f of its twisting stiffness from the lattice's own calibration: a strip of equal cells has
+one f at any E (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone, and are in
+proportion to its E: by ν and h one difference with all cells changed at once gives all rates, which are found
+once a lattice.
 
 Fields over the cells (rows, columns), from y0 to y1, each row from x0 to x1:
 

@@ -2,8 +2,8 @@
 
 Springs of a cell follow from its own section by the closed form of `lumped.calibration.closed_form`, at the
 lattice's own layer distance, so that some springs may be slightly negative here. Along edges and rims a cell
-keeps the factor f of its twisting stiffness from the lattice's own calibration, as f depends on all cells
-across a strip (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone, and are in
+keeps the factor f of its twisting stiffness from the lattice's own calibration: a strip of equal cells has
+one f at any E (`lumped.calibration.edge_twist`). Each cell's constants depend on that cell alone, and are in
 proportion to its E: by ν and h one difference with all cells changed at once gives all rates, which are found
 once a lattice.
 

@@ -47,8 +47,8 @@ def of_tables(answers: Sequence[ReproducedTest]) -> Iterator[Finding]:
             status = "" if solution.status is Status.CONVERGED else f" (its answer is {solution.status})"
             yield Finding(
                 answer.title,
-                f"With the published k {solution.model}{status} differs from the published model by up to "
-                f"{percent(float(distance), '.0f')} of its largest displacement.",
+                f"With the published k the lattice {solution.model}{status} differs from the published model "
+                f"by up to {percent(float(distance), '.0f')} of its largest displacement.",
             )
 
 

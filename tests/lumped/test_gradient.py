@@ -240,12 +240,20 @@ def test_values_of_a_design_go_together():
 
 
 def test_a_field_is_that_of_the_scene_that_has_it():
-    """The E of every cell times one factor is the scene's, and what the sum of the derivatives says."""
+    """The E of every cell times one factor is the scene's, of some cells a patch's; sums of derivatives."""
     scene = scene_of("one-edge-clamped")
     of = lumped.Differentiable(scene, calibrated(scene, 9))
     unsolved = of.pullback(np.ones(of.base["forces"].shape))["cells.young"]  # at the scene's own values
     stiffer = of.solve({"cells.young": 1.1 * of.base["cells.young"]})
     assert np.allclose(stiffer, of.solve({"young": 1.1 * scene.material.young}), rtol=0, atol=1e-12)
+    half = {
+        "shape": {"rectangle": {"x": (0.094, 0.188), "y": (0.0, 0.188)}},
+        "young": 2.0 * scene.material.young,
+    }
+    patched = scene.replace(patches=[half])
+    same = lumped.Differentiable(patched, calibrated(patched, 9)).solve({})
+    of_half = of.base["cells.young"] * np.repeat([1.0, 2.0], 4)
+    assert np.allclose(of.solve({"cells.young": of_half}), same, rtol=0, atol=1e-12)
     of.solve({})
     found = of.pullback(np.ones_like(stiffer))
     assert np.allclose(found["cells.young"], unsolved, rtol=1e-9)

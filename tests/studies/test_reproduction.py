@@ -63,8 +63,8 @@ def test_the_tables_hold_what_was_published_and_what_we_answer(answer_1):
     )
     assert {"test-1.vtu", "test-1-shell.vtu", "test-1-k550-lz17.vtu"} <= set(report.files())
     assert [one.finding.partition(" differs")[0] for one in found.findings()[1:]] == [
-        "With the published k k550-lz3",
-        "With the published k k550-lz17",
+        "With the published k the lattice k550-lz3",
+        "With the published k the lattice k550-lz17",
     ]
 
 

@@ -180,7 +180,8 @@ class CellFields:
         self, name: str, values: Values, assembly: Assembly, by: list[np.ndarray], v: np.ndarray, kept: Rates
     ) -> np.ndarray:
         """Return the derivatives of v·(f − f_int) by a field of numbers, of the complete lattice `assembly`;
-        by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`); kept: known rates of springs at the values; new rates are added to it."""
+        by: of v·f_int by all constants of the springs (`AllFamilies.powers_by_constants`); kept: known rates
+        of springs at the values; new rates are added to it."""
         found = np.zeros_like(self.value(name, values))
         of_springs, over = self._rates(name, values, assembly, kept) if name in OF_SECTION else ([], found)
         for (cells, change), power in zip(of_springs, by, strict=False):

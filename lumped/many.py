@@ -129,7 +129,7 @@ def _compiled_solver(
     out: np.ndarray,
     done: np.ndarray,
 ) -> Callable[[slice], None]:
-    """Return the function that solves a part of the designs in compiled code and marks the converged designs."""
+    """Return the function that solves a part of the designs in compiled code and marks converged designs."""
     problem, assembly, band = sheet.problem, sheet.problem.assembly, sheet.problem.system.band
     base, forces = sheet.base[YOUNG].ravel(), np.broadcast_to(designs.get(FORCES, 0.0), out.shape)
     young = np.broadcast_to(np.reshape(designs.get(YOUNG, base), (-1, base.size)), (len(out), base.size))

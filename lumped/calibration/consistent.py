@@ -90,9 +90,12 @@ def consistent(
                     f"layer: not symmetric about the middle: no springs with {given} match the laminate; "
                     "take two layers without a layer distance, or the shell"
                 ) from None
+            unequal, instead = "unequal cells", ""
+            if cells is None:
+                unequal, instead = f"grading = {grading:g}", ", or grading 0"
             raise BadInput(
-                f"grading = {grading:g}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
-                "has no closed form; take two layers without a layer distance, or grading 0"
+                f"{unequal}: with {given} a cell of {cell.args[0]:.4g} × {cell.args[1]:.4g} m "
+                f"has no closed form; take two layers without a layer distance{instead}"
             ) from None
         springs = fit_moduli(grid_cells, layer_distance)
     notes: list[str] = []

@@ -14,7 +14,7 @@ from lumped.assembly import Assembly
 from lumped.calibration import edge_twist
 from lumped.grid_lines import grid_lines
 from sheetbench.answers.solution import Status
-from sheetbench.scenes import BadInput, Clamped, PointLoad, Scene, Sheet, SpringSet, load
+from sheetbench.scenes import BadInput, Clamped, Patch, PointLoad, Scene, Sheet, SpringSet, load
 from sheetbench.scenes.objects.grading import Grading, as_settings
 
 GRADINGS = (0.5, 0.8, Grading(0.6, ("x0",)))
@@ -194,3 +194,15 @@ def test_what_has_no_cell_by_cell_form_is_refused():
     springs = lumped.calibrate(SHEET, RUBBER, 5, grading=0.5)
     with pytest.raises(BadInput, match="weights = 'full'"):
         lumped.solve(load("one-edge-clamped"), springs, weights="full")
+
+
+def test_cells_without_a_closed_form_are_refused_with_what_would_help():
+    scene = load("one-edge-clamped")
+    firm = scene.replace(
+        patches=(Patch(shape={"rectangle": {"x": (0.0, 0.05), "y": (0.0, 0.188)}}, young=9e7),)
+    )
+    with pytest.raises(BadInput, match=r"^grading = 0\.5: with 3 layers .* distance, or grading 0$"):
+        lumped.calibrate(scene.sheet, scene.material, (9, 9, 3), grading=0.5)
+    with pytest.raises(BadInput, match=r"^unequal cells: with 3 layers .* without a layer distance$"):
+        cells = lumped.sections_of(firm, (9, 9, 3), 0.0)
+        lumped.calibrate(firm.sheet, firm.material, (9, 9, 3), cells=cells)

@@ -40,6 +40,7 @@ THINNEST = 1 / 16  # radius of an obstacle over a cell's side, which then has 48
 STIFFER = 100.0  # of E/h, where the patch may be small
 MOVING = 0.065  # of ω_max², that contact in motion adds at most
 ROUNDED = 0.3  # δ₁ of the thickness, in motion
+NEARLY = 1e-6  # of a part, over which lengths may be, so that sides of round ratios have parts that stay
 SAME_DEPTH = 1e-7  # of the thickness, by which depths differ of which the mean force is that of the mean
 Deformed = tuple[np.ndarray, Drive]  # displacement (n, 3) [m] of the masses, and load factor or time
 Since = Deformed | None  # start of the step over which a mean is returned
@@ -56,7 +57,7 @@ def parts_of_cells(sides: np.ndarray, longest: float, of: int) -> tuple[np.ndarr
     """Return coordinates r, s (p,) of points in a cell, and the numbers (t, 9) of the points of each part.
     The cell, with sides (2,) [m], is divided into equal parts no longer than `longest` [m], their number
     along each side a multiple of `of`."""
-    n, m = of * np.maximum(1, np.ceil(sides / longest / of)).astype(int)
+    n, m = of * np.maximum(1, np.ceil(sides / longest / of - NEARLY)).astype(int)
     lines = np.linspace(0.0, 1.0, 2 * m + 1), np.linspace(0.0, 1.0, 2 * n + 1)
     s, r = (each.ravel() for each in np.meshgrid(*lines, indexing="ij"))
     number = np.arange(len(r)).reshape(2 * m + 1, 2 * n + 1)

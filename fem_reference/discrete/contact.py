@@ -34,6 +34,7 @@ from sheetbench.scenes.objects.obstacles import TOUCH, AnyObstacle, Plane
 
 SOFTER, ROUNDED, STIFFER = 0.01, 0.3, 100.0  # in motion: of E/h, over which part of h rounded; of patches
 SPREAD = np.kron(*2 * [np.array([[1.0, 0.0, 0.0], [0.5, 0.0, 0.5], [0.0, 0.0, 1.0]])])  # none pulls there
+NEARLY = 1e-6  # of `least` parts, over which the longest may be: parts of round ratios stay at small changes
 SIMPSON = np.outer([1.0, 4.0, 1.0], [1.0, 4.0, 1.0]).ravel() / 9.0  # ∫ N dr ds of a part's points
 Pressed = tuple[np.ndarray, np.ndarray, np.ndarray]  # energy, loads and slopes of groups (faces, m, t, …)
 
@@ -61,7 +62,7 @@ class ObstacleContact(SheetItem):
         else:
             least, finer = (4, 3.0) if self.bent else (2, 2.0)
             longest = finer * np.ptp(plan.corners, axis=1).max() / obstacle.radius
-            parts = least * max(1, int(np.ceil(longest / least)))
+            parts = least * max(1, int(np.ceil(longest / least - NEARLY)))
             line = np.linspace(-1.0, 1.0, 2 * parts + 1)
             r, s = (coordinates.ravel() for coordinates in np.meshgrid(line, line, indexing="ij"))
             number = np.arange(len(r)).reshape(len(line), -1)

@@ -53,6 +53,15 @@ def test_force_is_the_potential_s_and_tangent_the_force_s_derivative(name, curle
     assert np.linalg.norm(found - along) < 1e-7 * np.linalg.norm(along)
 
 
+def test_parts_of_elements_are_as_many_on_both_sides_of_a_round_radius():
+    """As a derivative by the radius takes them; an element's side is 4 of the R/3 that a part may have."""
+    side = 0.16 / 4
+    for near in (1.0 - 1e-8, 1.0 + 1e-8):
+        scene = pressed_ball((0.07, 0.07), 4e-3, 0.75 * side * near)
+        sheet = DiscreteShell(mesh_of(scene, divisions(scene.sheet, (4, 4)), False), scene)
+        assert sheet.contacts[0].groups.shape == (16, 9)
+
+
 def test_what_takes_kinks_off_has_its_derivatives():
     rng, h = np.random.default_rng(0), 1e-6
     vectors, step, pull = rng.normal(size=(3, 2, 18, 3))

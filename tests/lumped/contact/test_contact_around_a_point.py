@@ -41,6 +41,15 @@ def test_integral_over_a_patch_has_its_derivatives(depth, a, b, x, y, turned, po
         assert even == pytest.approx(np.pi * depth**3 / (6.0 * np.sqrt(a * b)), rel=1e-8)
 
 
+def test_parts_of_cells_are_as_many_on_both_sides_of_a_round_radius():
+    """As a derivative by the radius takes them; a cell's side is 4 of the R/3 that a part may have."""
+    side = 0.16 / 8
+    for near in (1.0 - 1e-8, 1.0 + 1e-8):
+        scene = pressed_ball((0.07, 0.07), 4e-3, 0.75 * side * near)
+        problem = build_problem(scene, lumped.calibrate(scene.sheet, scene.material, grid=9))
+        assert problem.contacts[0].groups.shape == (16, 9)
+
+
 def test_what_an_answer_has_at_points_is_on_the_surface_that_touches():
     """Its derivatives are those of it, forwards and backwards; on a flat sheet's cells it is the bilinear."""
     at = np.array([[0.0733, 0.0867], [0.08, 0.08], [0.16, 0.03], [0.0, 0.16], [0.091, 0.07]])

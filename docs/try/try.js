@@ -33,7 +33,8 @@ async function load(name) {
     track = [], time = left = 0, grabbed = null;
     apply();
   } catch (error) {
-    by("said").textContent = `${name} is not here (${error.message}): pip install ziglang, then make docs.`;
+    const then = location.protocol === "file:" ? "python -m http.server, for browsers read no files beside a page on a disk" : "pip install ziglang, then make docs";
+    by("said").textContent = `${name} is not here (${error.message}): ${then}.`;
   }
 }
 

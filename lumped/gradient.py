@@ -33,7 +33,7 @@ from lumped.calibration import Calibration
 from lumped.cell_fields import CURVATURE, FIELD, POISSON, STATE, STRAIN, CellFields, Values
 from lumped.loads import Loads
 from lumped.mid_surface import MidSurface
-from lumped.parameter_sides import Calibrate, both_sides
+from lumped.parameter_sides import both_sides
 from lumped.pattern import SHARED_UP_TO
 from lumped.statics.build import build_problem
 from lumped.statics.problem import Problem
@@ -51,29 +51,22 @@ Sides = tuple["list[Base]", float]
 
 
 class Base:
-    """A scene's lattice and its calibrated springs, shared by equilibria at any parameter values. calibrate:
-    finds the springs of a changed scene; by default the calibration's method without options; previous: the
-    lattice of a scene with an equal plan and grid."""
+    """A scene's lattice and its calibrated springs, shared by equilibria at any parameter values. previous:
+    the lattice of a scene with an equal plan and grid."""
 
     _last: ClassVar[tuple[Any, Base] | None] = None
 
-    def __init__(
-        self,
-        scene: Scene,
-        calibration: Calibration,
-        calibrate: Calibrate | None = None,
-        previous: Problem | None = None,
-    ):
-        self.scene, self.calibration, self.calibrate = scene, calibration, calibrate
+    def __init__(self, scene: Scene, calibration: Calibration, previous: Problem | None = None):
+        self.scene, self.calibration = scene, calibration
         self.problem = build_problem(scene, calibration, previous=previous)
         self.cells = CellFields(scene, calibration, self.problem.assembly)
         self._sides = dict[str, Sides]()
 
     @classmethod
-    def of(cls, scene: Scene, calibration: Calibration, calibrate: Calibrate | None = None) -> Base:
+    def of(cls, scene: Scene, calibration: Calibration) -> Base:
         """Return the lattice with the springs of a calibration; a small lattice is reused from the last
         call."""
-        key = scene, calibration, calibrate
+        key = scene, calibration
         if cls._last is not None and cls._last[0] == key:
             return cls._last[1]
         found = cls(*key)
@@ -87,7 +80,7 @@ class Base:
         if name not in self._sides:
             even = self.calibration.cells is None and self.scene.material.poisson is not None
             names = TOGETHER if even and name in TOGETHER else (name,)
-            each = both_sides(self.scene, self.calibration, names, self.calibrate)
+            each = both_sides(self.scene, self.calibration, names)
             for one, (ends, over) in zip(names, each, strict=True):
                 self._sides[one] = [Base(*end, previous=self.problem) for end in ends], over
         return self._sides[name]
@@ -139,11 +132,9 @@ class Equilibrium:
         self.rates_of_cells = base.cells.rates_at(values)
 
     @classmethod
-    def of(
-        cls, scene: Scene, calibration: Calibration, u: np.ndarray, calibrate: Calibrate | None = None
-    ) -> Equilibrium:
+    def of(cls, scene: Scene, calibration: Calibration, u: np.ndarray) -> Equilibrium:
         """Return the derivatives at u of a scene's lattice with the springs of a calibration (`Base.of`)."""
-        return cls(Base.of(scene, calibration, calibrate), u)
+        return cls(Base.of(scene, calibration), u)
 
     @cached_property
     def _factor(self) -> Factor:

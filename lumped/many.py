@@ -18,7 +18,6 @@ import numpy as np
 from lumped.calibration import Calibration
 from lumped.cell_fields import YOUNG
 from lumped.gradient import FORCES
-from lumped.parameter_sides import Calibrate
 from lumped.sensitivity import Differentiable
 from lumped.springs import all_families
 from lumped.springs.all_families import SpringArrays, Stresses
@@ -62,7 +61,6 @@ def solve_many(
     designs: Mapping[str, np.ndarray],
     calibration: Calibration | None = None,
     *,
-    calibrate: Calibrate | None = None,
     workers: int | None = None,
 ) -> Designs:
     """Return the equilibria of many designs of one scene, each sought first from the scene's own.
@@ -75,8 +73,6 @@ def solve_many(
         Values by name as in `Differentiable.solve`, with a leading axis over the designs.
     calibration : Calibration, optional
         Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
-    calibrate : callable, optional
-        Function that calibrates a changed scene; by default the calibration's method without options.
     workers : int, optional
         Number of threads, by default one a core.
 
@@ -90,7 +86,7 @@ def solve_many(
     BadInput
         For numbers of designs that differ between names, unknown fields and fields of another shape.
     """
-    sheet = Differentiable(scene, calibration, calibrate)
+    sheet = Differentiable(scene, calibration)
     counts = {len(values) for values in designs.values()}
     if len(counts) != 1:
         raise BadInput(f"designs: {sorted(counts)} values: equal numbers of values are needed")

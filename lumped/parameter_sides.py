@@ -37,7 +37,6 @@ STEP_OF |= {"obstacle": 1e-10, "load": 1e-6, "gravity": 1e-4, "support": 1e-8, "
 STEP_OF |= {"temperature": 1e-3, "poisson": 4e-6}
 PATCH, OBSTACLE, EDGES = "patch", "obstacle", ("tilt", "curvature")  # beginnings of names
 
-Calibrate = Callable[[Scene], Calibration]
 Changed = tuple[Scene, Calibration]
 Sides = tuple[list[Changed], float]  # below and above a parameter, and the distance between both
 
@@ -46,7 +45,6 @@ def both_sides(
     scene: Scene,
     calibration: Calibration,
     names: Sequence[str],
-    calibrate: Calibrate | None = None,
     share: float = 0.0,
 ) -> list[Sides]:
     """Return scene and springs at values a little below and above each parameter, all of one kind, and the
@@ -65,7 +63,7 @@ def both_sides(
     if of_springs:
         sides = [(scene, calibration.with_constant(*change)) for change in changes]
     else:
-        sides = of_changed(scene, calibration, changes, calibrate, names[0].startswith(EDGES))
+        sides = of_changed(scene, calibration, changes, names[0].startswith(EDGES))
     return [(sides[n : n + 2], changes[n + 1][1] - changes[n][1]) for n in range(0, len(sides), 2)]
 
 
@@ -73,7 +71,6 @@ def of_changed(
     scene: Scene,
     calibration: Calibration,
     changes: Sequence[tuple[str, float]],
-    calibrate: Calibrate | None,
     checked: bool = True,
 ) -> list[Changed]:
     """Return scene and springs for each changed value, recalibrated if they depend on it; checked: whether
@@ -83,7 +80,7 @@ def of_changed(
     scenes = [put(scene, *change, checked and change is changes[0]) for change in changes]
     springs = [calibration] * len(scenes)
     if name.startswith(CALIBRATED_FROM):
-        springs = [*map(calibrate, scenes)] if calibrate else _calibrated(calibration, scenes)
+        springs = _calibrated(calibration, scenes)
     elif name == "density" and calibration.cells is not None:
         grid, grading = calibration.grid, calibration.grading
         springs = [replace(calibration, cells=sections_of(one, grid, grading)) for one in scenes]

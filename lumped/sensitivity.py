@@ -11,7 +11,7 @@ from lumped.calibration import Calibration, default
 from lumped.cell_fields import FIELD
 from lumped.gradient import FORCES, Base, Equilibrium, Gradient
 from lumped.mid_surface import MidSurface
-from lumped.parameter_sides import Calibrate, of_changed
+from lumped.parameter_sides import of_changed
 from lumped.statics.problem import LatticePath
 from lumped.statics.solver import solve_path
 from sheetbench.answers.solution import Status
@@ -30,8 +30,6 @@ class Differentiable:
         Scene with a static answer, the name of one in the catalogue, or the path of its file.
     calibration : Calibration, optional
         Springs; by default the scene's, or consistent ones on nine masses along the shorter side.
-    calibrate : callable, optional
-        Function that calibrates a changed scene; by default the calibration's method without options.
 
     Notes
     -----
@@ -48,12 +46,10 @@ class Differentiable:
     (8, 8)
     """
 
-    def __init__(
-        self, scene: AnyScene, calibration: Calibration | None = None, calibrate: Calibrate | None = None
-    ):
+    def __init__(self, scene: AnyScene, calibration: Calibration | None = None):
         self.scene = scene_of(scene)
         require_static(self.scene)
-        self._base = base = Base.of(self.scene, calibration or default(self.scene), calibrate)
+        self._base = base = Base.of(self.scene, calibration or default(self.scene))
         self.calibration, self.cells, self.problem = base.calibration, base.cells, base.problem
         self._last: Equilibrium | None = None
         self._values = dict[str, np.ndarray]()
@@ -97,9 +93,9 @@ class Differentiable:
         base, scene, springs, numbers = self._base, self.scene, self.calibration, self.checked(values)
         fields = {name: numbers.pop(name) for name in values if name.startswith(FIELD) or name == FORCES}
         for name, value in numbers.items():
-            ((scene, springs),) = of_changed(scene, springs, [(name, value.item())], base.calibrate)
+            ((scene, springs),) = of_changed(scene, springs, [(name, value.item())])
         if scene is not self.scene:
-            base = Base(scene, springs, base.calibrate)
+            base = Base(scene, springs)
         problem = base.with_values(fields)
         near = None if problem.assembly.coupling is not None else near
         with one_blas_thread():

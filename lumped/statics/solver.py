@@ -10,7 +10,6 @@ from lumped.calibration import Calibration, default
 from lumped.calibration.consistent import consistent
 from lumped.gradient import Equilibrium
 from lumped.lattice import Weights
-from lumped.parameter_sides import Calibrate
 from lumped.statics import validity
 from lumped.statics.answer import solution
 from lumped.statics.build import build_problem
@@ -51,7 +50,6 @@ def solve(
     linear: bool = False,
     near: np.ndarray | None = None,
     progress: Callable[[Iteration], None] | None = None,
-    calibrate: Calibrate | None = None,
 ) -> Solution:
     """Return the static equilibrium of a scene on a lattice, traced from the flat sheet to full load.
 
@@ -74,9 +72,6 @@ def solve(
         start; with actuators, and if it leads to no stable equilibrium, the path starts from the flat sheet.
     progress : callable, optional
         Function of an `Iteration`, called at each.
-    calibrate : callable, optional
-        Function that calibrates a changed scene for the answer's `gradient`; by default the calibration's
-        method without options.
 
     Returns
     -------
@@ -125,7 +120,7 @@ def solve(
     seconds = ready_time - start_time, now() - ready_time
     options = {"branch": (branch, "path"), "weights": (weights, "tributary"), "linear": (linear, False)}
     requested = {name: value for name, (value, default_value) in options.items() if value != default_value}
-    derivatives = partial(Equilibrium.of, scene, calibration, path.state.u, calibrate)
+    derivatives = partial(Equilibrium.of, scene, calibration, path.state.u)
     differentiable = not linear and weights == "tributary"
     return solution(problem, path, calibration, seconds, requested, derivatives if differentiable else None)
 
